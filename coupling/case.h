@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table [coupling] of the case file: both programs read it, and the handshake compares what they read.
+#pragma once
+#include <string>
+
+#include "common/math/units.h"
+
+namespace bw::coupling {
+
+/// How a window of time is shared; the numbers travel in HELLO.
+enum class Scheme : int { none = 0, fluid_first = 1, box1 = 2 };
+
+struct CouplingCase {
+  std::string scheme = "fluid_first";
+  double reference_pressure = 101325;  ///< Pa; absolute pressure that the solid feels as none
+  double window_max = 0;               ///< s; 0: the fluid's time step alone decides
+  double silence_limit = 600;          ///< s
+  double join_limit = 120;             ///< s
+
+  template <class K>
+  void describe(K& k) {
+    k.choice("scheme", scheme, {"fluid_first", "box1"},
+             "fluid_first: the wall moves with a predicted velocity, repays its gap, and loads are the window's mean "
+             "(2nd order); "
+             "box1: the wall moves with the last velocity, loads are the window's end (1st order)");
+    k.optional("reference_pressure", reference_pressure, dim::pressure,
+               "absolute pressure subtracted from the fluid's before it loads the solid");
+    k.optional("window_max", window_max, dim::time,
+               "longest time between two exchanges; 0 = the fluid's time step alone decides");
+    k.optional("silence_limit", silence_limit, dim::time,
+               "a program that hears nothing from the other for so long ends both");
+    k.optional("join_limit", join_limit, dim::time, "longest wait for the other program at the start");
+    k.expect(reference_pressure >= 0, "reference_pressure", "a pressure >= 0");
+    k.expect(window_max >= 0, "window_max", "a time >= 0");
+    k.expect(silence_limit > 0, "silence_limit", "a time > 0");
+    k.expect(join_limit > 0, "join_limit", "a time > 0");
+  }
+  Scheme kind() const { return scheme == "box1" ? Scheme::box1 : Scheme::fluid_first; }
+};
+
+}  // namespace bw::coupling

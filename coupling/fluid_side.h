@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fluid's half of a coupled run:
+//
+//   while (side.receive()) {                       // false: the solid has finished
+//     ...move the walls of side.surface() with its velocities from side.window().t0 to some t1 <= t1_max...
+//     side.send(loads);                            // one P per face of side.surface()
+//   }
+//
+// Collective over the fluid's ranks: the leader exchanges and its loads count, all ranks get the surface.
+#pragma once
+#include "coupling/channel.h"
+#include "coupling/messages.h"
+
+namespace bw::coupling {
+
+class FluidSide {
+ public:
+  /// Says HELLO and checks the answer.
+  FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hello);
+
+  /// s; the smaller of the two programs' ends.
+  double t_end() const { return t_end_; }
+  /// The next surface. false: the solid said BYE, which was answered; nothing may be sent afterwards.
+  bool receive();
+  const Window& window() const { return window_; }
+  /// x at t0; v for the whole window, to be held constant (fluid_first: the gap's repayment comes on top, on the
+  /// fluid's side).
+  const WetSurface& surface() const { return surface_; }
+  /// The connectivity is not that of the window before (true for the first).
+  bool topology_changed() const { return topology_changed_; }
+  /// Answers. The leader's loads; t1 in (t0, t1_max].
+  void send(const Loads& loads);
+
+ private:
+  void say_hello(const Hello& hello);
+  void receive_surface(const StepBlock& step);
+
+  Channel& channel_;
+  CouplingCase case_;
+  double t_end_ = 0;
+  Window window_;
+  WetSurface surface_;
+  StepBlock step_{};
+  bool topology_changed_ = false;
+};
+
+}  // namespace bw::coupling

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the programs of one mpirun find each other: each says its role, by name, over the world.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "coupling/case.h"
+#include "coupling/channel.h"
+
+namespace bw::coupling {
+
+struct Joined {
+  Comm mine;                         ///< this program's ranks, in world order
+  std::unique_ptr<Channel> channel;  ///< none: this program runs alone
+};
+
+/// Collective over the world, in any order of programs on the command line. Call it when the input has been read and
+/// checked: a program that dies before it joins is noticed (at once if it aborts, at case.join_limit if it hangs).
+/// program = name and version for messages, "csd".
+Joined join(const Session& session, Role role, const std::string& program, const CouplingCase& cs);
+
+}  // namespace bw::coupling

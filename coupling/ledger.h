@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The books of the interface: what the fluid gave against what the solid got, window by window (COUPLING, Ledger).
+// A row of coupling_history.csv per window; a defect of impulse beyond round-off is a bug and ends the run.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coupling/loads.h"
+
+namespace bw::coupling {
+
+/// What the solid received from the face forces in one or more substeps.
+struct SolidTotals {
+  Vec3 impulse;     ///< N s
+  Vec3 moment;      ///< N m s about the origin
+  double work = 0;  ///< J
+  int64_t substeps = 0;
+  SolidTotals& operator+=(const SolidTotals& b);
+};
+
+/// Totals of one substep: nodal forces f [N] held over h, nodes going from x_before to x_after. Sums in node order.
+/// `moment` uses the lever at the window's start, `x_window`, where the face forces were made.
+SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_window, std::span<const Vec3> x_before,
+                           std::span<const Vec3> x_after, double h);
+
+/// A window's entries, and the sums since the start.
+struct LedgerRow {
+  int64_t window = 0;
+  double t0 = 0, t1 = 0;
+  SolidTotals solid;
+  FluidTotals fluid;
+  Vec3 impulse_defect;       ///< N s, solid - (fluid + p_ref A dt)
+  double impulse_scale = 0;  ///< N s, sum |P A| dt
+  double volume_gap = 0;     ///< m^3, solid's surface beyond the fluid's wall at t1 (fluid_first), before it is repaid
+  int64_t born = 0, dead = 0;                     ///< faces that came and went with this window's surface
+  double area = 0;                                ///< m^2
+  double work_fluid_sum = 0, work_solid_sum = 0;  ///< J since the start, both of the pressure beyond p_ref
+};
+
+class Ledger {
+ public:
+  /// impulse_tolerance: of sum |P A| dt.
+  explicit Ledger(double p_ref, double impulse_tolerance = 1e-12) : p_ref_(p_ref), tolerance_(impulse_tolerance) {}
+
+  /// The window's surface (x at t0; v as announced to the fluid) and the fluid's answer.
+  void open(const Window& window, const WetSurface& surface, const Loads& loads);
+  void add(const SolidTotals& substep) { row_.solid += substep; }
+  /// The window ends; nodes of the opened surface are at x_end [n_nodes] (empty: unknown, then no gap). The text is a
+  /// failure (impulse not conserved), to be given to Channel::fail(exit_ledger).
+  std::optional<std::string> close(std::span<const Vec3> x_end = {});
+  const LedgerRow& row() const { return row_; }
+
+ private:
+  double p_ref_, tolerance_;
+  WetSurface surface_;
+  double dt_ = 0;
+  Vec3 area_sum_;  // m^2, the surface's own area vectors
+  std::vector<int64_t> face_id_;  // of the window before
+  bool first_ = true;
+  LedgerRow row_;
+};
+
+}  // namespace bw::coupling

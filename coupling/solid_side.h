@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The solid's half of a coupled run. One pass of its loop:
+//
+//   side.send({.t0 = t, .t1_max = t_allowed, .dt_stable = dt}, wet);      // x^n, v^n
+//   const Loads& loads = side.receive();                                  // P over [t, t1]
+//   const auto force = face_forces(wet, loads, cs.reference_pressure);    // constant over the window
+//   EqualSubsteps sub(t, loads.t1); while (!sub.done()) { ...; side.add(substep_totals(...)); }
+//   side.end_window(x_of_the_sent_nodes);
+//
+// until t >= side.t_end() or side.stop_asked(); then side.finish(). Collective over the solid's ranks: the leader
+// exchanges and its surface counts, all ranks get the loads.
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+
+#include "coupling/channel.h"
+#include "coupling/ledger.h"
+#include "coupling/messages.h"
+#include "coupling/predictor.h"
+#include "coupling/substeps.h"
+
+namespace bw::coupling {
+
+class SolidSide {
+ public:
+  /// Says HELLO and checks the answer. Rows go to history_path (leader; empty: none).
+  SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path);
+  ~SolidSide();
+
+  /// s; the smaller of the two programs' ends.
+  double t_end() const { return t_end_; }
+  /// The fluid wants to end after the window in hand.
+  bool stop_asked() const { return loads_.stop; }
+
+  /// Window.index and mean_pressure are set here, t1_max is clipped to t_end() and window_max; surface.v is v^n, what
+  /// travels is the predicted velocity of the walls.
+  void send(Window window, const WetSurface& surface);
+  /// Checked: t0 < t1 <= t1_max, one finite P per face. Valid until the next send.
+  const Loads& receive();
+  /// One substep's totals (leader's count; call on any).
+  void add(const SolidTotals& totals) { ledger_.add(totals); }
+  /// Closes the window's books; x_end = positions of the nodes as sent (leader; may be empty). Ends the run if impulse
+  /// was lost.
+  void end_window(std::span<const Vec3> x_end = {});
+  const LedgerRow& books() const { return ledger_.row(); }
+  /// BYE both ways. Nothing may be sent afterwards.
+  void finish(const std::string& reason = "finished");
+
+ private:
+  void say_hello(const Hello& hello);
+
+  Channel& channel_;
+  CouplingCase case_;
+  double t_end_ = 0;
+  Window window_;
+  int64_t next_window_ = 0;
+  WetSurface sent_;  // as on the wire: v is predicted
+  StepBlock step_{};
+  int64_t topo_sent_ = -1;
+  Loads loads_;
+  WallPredictor predictor_;
+  WetSurface surface_now_;  // v^n, for the predictor's memory
+  Ledger ledger_;
+  double dt_usual_ = 0;  // last window that was not clipped
+  double waited_before_ = 0;
+  struct History;  // the CSV file
+  std::unique_ptr<History> history_;
+};
+
+}  // namespace bw::coupling
