@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The working copy of one block: primitive variables with two layers of neighbours, filled by cfd/amr/gather.h, read by
+// the kernels.
+//   (variable, k, j, i) -> row(variable, k, j)[i],  i, j, k from -ghost(d) to n(d) + ghost(d) - 1.
+// A direction with one cell in the whole domain is unused: no ghosts, no fluxes.
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "cfd/mix/five_equation.h"
+#include "common/data/field.h"
+#include "common/math/tensor.h"
+
+namespace bw::cfd {
+
+inline constexpr int ghost_layers = 2;
+
+/// Cells of one block and of its storage. The same for all blocks of a run.
+struct BlockShape {
+  std::array<int, 3> n{1, 1, 1};                  ///< cells per direction
+  std::array<bool, 3> used{false, false, false};  ///< false: the domain has one cell in this direction
+  Vec3 h{1, 1, 1};                                ///< cell size [m]
+  int cells() const { return n[0] * n[1] * n[2]; }
+  int ghost(int d) const { return used[d] ? ghost_layers : 0; }
+  /// Place of (k, j, i) in the storage of one variable.
+  size_t at(int k, int j, int i) const { return (size_t(k) * n[1] + j) * n[0] + i; }
+  double cell_volume() const { return h.x * h.y * h.z; }
+};
+
+class Patch {
+ public:
+  Patch() = default;
+  explicit Patch(const BlockShape& shape) : shape_(shape) {
+    pitch_ = (margin + shape.n[0] + margin_right + 7) / 8 * 8;
+    rows_j_ = shape.n[1] + 2 * shape.ghost(1);
+    rows_k_ = shape.n[2] + 2 * shape.ghost(2);
+    stride_ = size_t(pitch_) * rows_j_ * rows_k_;
+    data_.assign(stride_ * Prim::stored, 0.0);
+  }
+  const BlockShape& shape() const { return shape_; }
+  /// Pointer to cell (k, j, i = 0) of a Prim row. Packs may be loaded from i = -margin to i = n(0) + margin_right - 1.
+  double* row(int variable, int k, int j) { return data_.data() + offset(variable, k, j); }
+  const double* row(int variable, int k, int j) const { return data_.data() + offset(variable, k, j); }
+  ptrdiff_t stride_j() const { return pitch_; }
+  ptrdiff_t stride_k() const { return ptrdiff_t(pitch_) * rows_j_; }
+  int pitch() const { return pitch_; }
+
+  static constexpr int margin = 4;         ///< doubles before i = 0
+  static constexpr int margin_right = 10;  ///< doubles from i = n on: two ghosts, and packs that hang over
+
+  int block = -1;    ///< local index of the block (cfd/amr/forest.h)
+  Vec3 lower;        ///< its lower corner [m]; centre of cell i: lower + (i + 1/2) h
+  int material = 0;  ///< 1 or 2: the block and all ghosts hold this material alone (alpha1 exactly 1 or 0); 0: mixed
+
+ private:
+  size_t offset(int variable, int k, int j) const {
+    return stride_ * size_t(variable) + (size_t(k + shape_.ghost(2)) * rows_j_ + size_t(j + shape_.ghost(1))) * pitch_ +
+           margin;
+  }
+  BlockShape shape_;
+  int pitch_ = 0, rows_j_ = 0, rows_k_ = 0;
+  size_t stride_ = 0;
+  Aligned<double> data_;
+};
+
+}  // namespace bw::cfd

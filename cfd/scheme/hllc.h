@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// HLLC [Toro 10.4-10.6] for the five-equation model and for one gas, in the form F = u_f U_f + p_f (0, n, u_f): the
+// upwind state is the star state between the waves and the side's own state outside. At a contact at rest every product
+// is exactly zero.
+#pragma once
+#include "cfd/mix/five_equation.h"
+#include "cfd/scheme/half_step.h"
+
+namespace bw::cfd {
+
+/// The waves of a face: the side upwind of the contact and what happens to it.
+template <class T>
+struct Waves {
+  T v;         ///< normal velocity at the face: the contact's, or the side's own where the flow is supersonic
+  T p;         ///< pressure at the face
+  T compress;  ///< rho_f/rho of the upwind side
+  T work;      ///< (E_f - compress E)/rho: energy per mass gained between the side and the star state
+};
+template <class T>
+struct Side {
+  T rho, v, p, c;
+};
+
+/// from_left is set to the mask "upwind is left". Davis' wave speeds with the cells' sound speeds.
+template <class T, class M>
+Waves<T> waves(const Side<T>& L, const Side<T>& R, M& from_left) {
+  const T S_L = min(L.v - L.c, R.v - R.c), S_R = max(L.v + L.c, R.v + R.c);
+  const T m_L = L.rho * (S_L - L.v), m_R = R.rho * (S_R - R.v);
+  const T v_star = L.v + (R.p - L.p + m_R * (L.v - R.v)) / (m_L - m_R);  // Toro 10.37, exact where L and R agree
+  from_left = v_star >= T(0);
+  const T S = select(from_left, S_L, S_R), m = select(from_left, m_L, m_R);
+  const T v = select(from_left, L.v, R.v), p = select(from_left, L.p, R.p);
+  const T p_star = p + m * (v_star - v);       // Toro 10.36
+  const T outside = select(from_left, S, -S);  // >= 0: the whole fan lies on the other side of the face
+  const auto supersonic = outside >= T(0);
+  const T compress = (S - v) / (S - v_star);
+  // Toro 10.39: E* = compress (E + rho (v* - v)(v* + p/(rho (S - v))))
+  const T work = compress * (v_star - v) * (v_star + p / m);
+  return {select(supersonic, v, v_star), select(supersonic, p, p_star), select(supersonic, T(1), compress),
+          select(supersonic, T(0), work)};
+}
+
+/// Flux of two materials through a face normal to `axis`; returns the face velocity that the alpha equation needs:
+/// d alpha/dt = -(F[alpha1]_+ - F[alpha1]_-)/h + alpha (v_f+ - v_f-)/h.
+/// L, R: Prim states at the face; c_L, c_R: sound speeds of the two cells.
+template <int axis, class T>
+T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], T c_L, T c_R, const Closure& closure,
+       T (&F)[Cons::count]) {
+  constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
+  decltype(c_L >= c_R) left;
+  const Waves<T> w = waves<T>({L[Prim::arho1] + L[Prim::arho2], L[n], L[Prim::p], c_L},
+                              {R[Prim::arho1] + R[Prim::arho2], R[n], R[Prim::p], c_R}, left);
+  T q[Prim::count];
+  for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
+  const T rho = q[Prim::arho1] + q[Prim::arho2];
+  const T E = closure.G(q[Prim::alpha1]) * q[Prim::p] + q[Prim::Pi] +
+              T(0.5) * rho * (q[n] * q[n] + q[t1] * q[t1] + q[t2] * q[t2]);
+  const T flow = w.compress * w.v;
+  F[Cons::arho1] = q[Prim::arho1] * flow;
+  F[Cons::arho2] = q[Prim::arho2] * flow;
+  const T mass = F[Cons::arho1] + F[Cons::arho2];
+  F[Cons::mom + axis] = mass * w.v + w.p;
+  F[Cons::mom + (axis + 1) % 3] = mass * q[t1];
+  F[Cons::mom + (axis + 2) % 3] = mass * q[t2];
+  F[Cons::rhoE] = E * flow + rho * w.work * w.v + w.p * w.v;
+  F[Cons::alpha1] = q[Prim::alpha1] * w.v;
+  return w.v;
+}
+
+/// Rows of a gas flux.
+struct GasCons {
+  enum : int { rho, mom, mom_y, mom_z, rhoE, count };
+};
+
+/// The same for one material of constant Pi (0 for an ideal gas).
+template <int axis, class T>
+void hllc_gas(const T (&L)[GasPrim::count], const T (&R)[GasPrim::count], T c_L, T c_R, double over_G, double Pi,
+              T (&F)[GasCons::count]) {
+  constexpr int n = GasPrim::v + axis, t1 = GasPrim::v + (axis + 1) % 3, t2 = GasPrim::v + (axis + 2) % 3;
+  decltype(c_L >= c_R) left;
+  const Waves<T> w =
+      waves<T>({L[GasPrim::rho], L[n], L[GasPrim::p], c_L}, {R[GasPrim::rho], R[n], R[GasPrim::p], c_R}, left);
+  T q[GasPrim::count];
+  for (int i = 0; i < GasPrim::count; ++i) q[i] = select(left, L[i], R[i]);
+  const T E = over_G * q[GasPrim::p] + Pi + T(0.5) * q[GasPrim::rho] * (q[n] * q[n] + q[t1] * q[t1] + q[t2] * q[t2]);
+  const T flow = w.compress * w.v;
+  F[GasCons::rho] = q[GasPrim::rho] * flow;
+  F[GasCons::mom + axis] = F[GasCons::rho] * w.v + w.p;
+  F[GasCons::mom + (axis + 1) % 3] = F[GasCons::rho] * q[t1];
+  F[GasCons::mom + (axis + 2) % 3] = F[GasCons::rho] * q[t2];
+  F[GasCons::rhoE] = E * flow + q[GasPrim::rho] * w.work * w.v + w.p * w.v;
+}
+
+}  // namespace bw::cfd
