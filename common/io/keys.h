@@ -25,15 +25,11 @@
 #include <vector>
 
 #include "common/app/error.h"
+#include "common/io/quantity.h"
 #include "common/math/tensor.h"
 #include "common/math/units.h"
 
 namespace bw {
-
-/// "1.283e10 dyn/cm^2" -> 1.283e9 for dim::pressure. Throws InputError without place when the text or the dimension is wrong.
-double parse_quantity(const std::string& text, Dim expected);
-/// The SI symbol of a dimension, "kg/(m s^2)" -> "Pa".
-std::string si_symbol(Dim dim);
 
 class Keys {
  public:
@@ -41,7 +37,7 @@ class Keys {
 
   /// Reads the file. InputError on syntax errors (with line).
   static Keys read_file(const std::string& path);
-  static Keys read_text(const std::string& text, const std::string& name = "input");
+  static Keys read_text(const std::string& text, const std::string& name = "input");  ///< name stands for the file in messages
   /// A Keys that only collects the manual; every describe() is walked once, lists and optional tables too.
   static Keys manual();
   std::string manual_text() const;
@@ -65,7 +61,7 @@ class Keys {
   void optional(const char* key, std::string& value, const char* doc) { text(key, value, doc, false); }
   void optional(const char* key, std::vector<std::string>& value, const char* doc) { texts(key, value, doc, false); }
   void required(const char* key, std::vector<std::string>& value, const char* doc) { texts(key, value, doc, true); }
-  /// One of a few words; InputError lists them.
+  /// One of a few words; InputError lists them. The value on entry is the default; required if that is empty.
   void choice(const char* key, std::string& value, const std::vector<std::string>& words, const char* doc);
 
   // --- tables ---------------------------------------------------------------------------------------------------------
@@ -101,7 +97,8 @@ class Keys {
   template <class... Ts> void pick(const char* key, std::variant<Ts...>& value, const char* doc, bool is_required = false) {
     const std::vector<std::string> names{Ts::name...};
     if (is_manual()) {
-      (pick_in_manual<Ts>(key, doc, names), ...);
+      begin_pick(key, names, int(value.index()), doc, is_required);
+      (pick_in_manual<Ts>(key, value), ...);
       return;
     }
     const int chosen = picked(key, names, int(value.index()), doc, is_required);
@@ -111,11 +108,11 @@ class Keys {
 
   /// The value just read is wrong: InputError at the key's place unless the condition holds (not asked in the manual).
   void expect(bool condition, const char* key, const std::string& what_was_expected);
-  /// InputError at the key's place, or the table's if the key is absent.
+  /// InputError at the key's place, or the table's if the key is absent. Inside describe() use expect().
   [[noreturn]] void fail(const char* key, const std::string& message) const;
   bool has(const char* key) const;
   bool is_manual() const;
-  /// "case.toml:12" of a key (or of the table, if absent): for errors found later.
+  /// "case.toml:12: solid.body[0].mesh" of a key (the table's line, if absent): for errors found later.
   std::string where(const char* key) const;
   /// Paths in the case file are relative to its folder.
   std::string resolve_path(const std::string& path) const;
@@ -139,13 +136,14 @@ class Keys {
   Keys open_item(const char* key, int i, const char* doc);
   void close(Keys& sub);  // unknown keys of the sub-table are errors
   int picked(const char* key, const std::vector<std::string>& names, int fallback, const char* doc, bool is_required);
-  template <class T> void pick_in_manual(const char* key, const char* doc, const std::vector<std::string>& names) {
-    begin_alternative(key, doc, T::name, names);
-    T value{};
+  void begin_pick(const char* key, const std::vector<std::string>& names, int fallback, const char* doc, bool is_required);
+  template <class T, class V> void pick_in_manual(const char* key, const V& held) {
+    begin_alternative(key, T::name);
+    T value = std::holds_alternative<T>(held) ? std::get<T>(held) : T{};
     value.describe(*this);
     end_alternative();
   }
-  void begin_alternative(const char* key, const char* doc, const char* name, const std::vector<std::string>& names);
+  void begin_alternative(const char* key, const char* name);
   void end_alternative();
   template <class T, class V> static void emplace_unless_held(V& value) {
     if (!std::holds_alternative<T>(value)) value.template emplace<T>();
