@@ -328,7 +328,7 @@ std::string si_symbol(Dim dim) {
   }
   if (above.empty()) above = "1";
   if (below.empty()) return above;
-  return fmt::format(count_below == 1 ? "{}/{}" : "{}/({})", above, below);
+  return count_below == 1 ? fmt::format("{}/{}", above, below) : fmt::format("{}/({})", above, below);
 }
 
 std::string dimension_name(Dim dim) {
