@@ -1,0 +1,327 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Exact solutions, made here from first principles and independent of the programs: Riemann problems of Mie-Grueneisen gases, pistons,
+detonation waves, the ring, and the impulse of a travelling front. SI units; pressure positive in compression."""
+import math
+
+import numpy as np
+
+
+# --- equations of state ---------------------------------------------------------------------------------------------------------------
+class IdealGas:
+    """p + p_inf = (gamma - 1) rho e - (gamma - 1) p_inf ... stiffened gas; p_inf = 0 is an ideal gas."""
+
+    def __init__(self, gamma, p_inf=0.0):
+        self.gamma, self.p_inf = gamma, p_inf
+
+    def isentrope(self, rho, rho_i, p_i):
+        return (p_i + self.p_inf) * (rho / rho_i) ** self.gamma - self.p_inf
+
+    def sound_speed(self, rho, p):
+        return math.sqrt(self.gamma * (p + self.p_inf) / rho)
+
+    def hugoniot(self, rho, rho_i, p_i):
+        g = self.gamma
+        ratio = rho / rho_i
+        top, bottom = (g + 1) * ratio - (g - 1), (g + 1) - (g - 1) * ratio
+        return (p_i + self.p_inf) * top / bottom - self.p_inf if bottom > 0 else math.inf
+
+    def energy(self, rho, p):
+        return (p + self.gamma * self.p_inf) / ((self.gamma - 1) * rho)
+
+
+class Jwl:
+    """Products: p = A(1 - w/(R1 V))exp(-R1 V) + B(1 - w/(R2 V))exp(-R2 V) + w rho e, V = rho0/rho."""
+
+    def __init__(self, rho0, a, b, r1, r2, omega, e0, d=0.0, p_cj=0.0):
+        self.rho0, self.a, self.b, self.r1, self.r2, self.omega, self.e0, self.d, self.p_cj = rho0, a, b, r1, r2, omega, e0, d, p_cj
+
+    def cold(self, v):
+        return self.a * math.exp(-self.r1 * v) + self.b * math.exp(-self.r2 * v)
+
+    def energy(self, rho, p):
+        v = self.rho0 / rho
+        e_ref = (self.a / self.r1 * math.exp(-self.r1 * v) + self.b / self.r2 * math.exp(-self.r2 * v)) / self.rho0
+        return e_ref + (p - self.cold(v)) / (self.omega * rho)
+
+    def pressure(self, rho, e):
+        v = self.rho0 / rho
+        e_ref = (self.a / self.r1 * math.exp(-self.r1 * v) + self.b / self.r2 * math.exp(-self.r2 * v)) / self.rho0
+        return self.cold(v) + self.omega * rho * (e - e_ref)
+
+    def isentrope(self, rho, rho_i, p_i):
+        v, v_i = self.rho0 / rho, self.rho0 / rho_i
+        c = (p_i - self.cold(v_i)) * v_i ** (1 + self.omega)
+        return self.cold(v) + c * v ** -(1 + self.omega)
+
+    def sound_speed(self, rho, p):
+        v = self.rho0 / rho
+        slope = self.a * self.r1 * math.exp(-self.r1 * v) + self.b * self.r2 * math.exp(-self.r2 * v)
+        c2 = v * v / self.rho0 * (slope + (1 + self.omega) * (p - self.cold(v)) / v)
+        return math.sqrt(max(c2, 0.0))
+
+    def hugoniot(self, rho, rho_i, p_i):
+        # e - e_i = (p + p_i)/2 (1/rho_i - 1/rho) is linear in p
+        half = 0.5 * (1 / rho_i - 1 / rho)
+        free = self.pressure(rho, self.energy(rho_i, p_i) + p_i * half)
+        bottom = 1 - self.omega * rho * half
+        return free / bottom if bottom > 0 else math.inf
+
+    def cj_state(self):
+        """D, P, V, u, c of the Chapman-Jouguet point: the least detonation speed on the Hugoniot of the stored energy e0 (per volume)."""
+        def speed2(v):
+            half = 0.5 * (1 - v)  # E = e0 + p (1 - v)/2 per volume of explosive
+            free = (self.a * (1 - self.omega / (self.r1 * v)) * math.exp(-self.r1 * v)
+                    + self.b * (1 - self.omega / (self.r2 * v)) * math.exp(-self.r2 * v) + self.omega * self.e0 / v)
+            p = free / (1 - self.omega / v * half)
+            return p / (self.rho0 * (1 - v)), p
+        low, high = 0.5, 0.95
+        ratio = (math.sqrt(5) - 1) / 2
+        for _ in range(200):
+            left, right = high - ratio * (high - low), low + ratio * (high - low)
+            if speed2(left)[0] < speed2(right)[0]:
+                high = right
+            else:
+                low = left
+        v = 0.5 * (low + high)
+        d2, p = speed2(v)
+        d = math.sqrt(d2)
+        return {"D": d, "P": p, "V": v, "u": d * (1 - v), "c": d * v}
+
+
+# name: rho0, A, B, R1, R2, omega, E0, D, P_CJ (Dobratz & Crawford, UCRL-52997)
+JWL_SETS = {name: Jwl(rho * 1e3, a * 1e9, b * 1e9, r1, r2, w, e0 * 1e9, d * 1e3, p * 1e9) for name, rho, a, b, r1, r2, w, e0, d, p in [
+    ("TNT", 1.630, 371.2, 3.231, 4.15, .95, .30, 7.0, 6.93, 21.0), ("Comp B", 1.717, 524.2, 7.678, 4.20, 1.10, .34, 8.5, 7.98, 29.5),
+    ("C-4", 1.601, 609.77, 12.95, 4.50, 1.40, .25, 9.0, 8.193, 28.0), ("PETN", 1.770, 617.0, 16.926, 4.40, 1.20, .25, 10.1, 8.30, 33.5),
+    ("PETN 1.50", 1.50, 625.3, 23.29, 5.25, 1.60, .28, 8.56, 7.45, 22.0), ("LX-14", 1.835, 826.1, 17.24, 4.55, 1.32, .38, 10.2, 8.80, 37.0),
+    ("Octol 78/22", 1.821, 748.6, 13.38, 4.50, 1.20, .38, 9.6, 8.48, 34.2), ("HMX", 1.891, 778.3, 7.071, 4.20, 1.00, .30, 10.5, 9.11, 42.0),
+    ("PBX-9404", 1.840, 852.4, 18.02, 4.60, 1.30, .38, 10.2, 8.80, 37.0), ("LX-10", 1.865, 880.7, 18.36, 4.62, 1.32, .38, 10.4, 8.82, 37.5),
+    ("Cyclotol 77/23", 1.754, 603.4, 9.924, 4.30, 1.10, .35, 9.2, 8.25, 32.0), ("H-6", 1.760, 758.07, 8.513, 4.90, 1.10, .20, 10.3, 7.47, 24.0),
+    ("Pentolite", 1.700, 540.94, 9.3726, 4.50, 1.10, .35, 8.1, 7.53, 25.5)]}
+AIR = dict(rho=1.225, p=101325.0, gamma=1.4)
+
+
+# --- waves ----------------------------------------------------------------------------------------------------------------------------
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)
+
+
+def riemann_integral(eos, rho_i, p_i, rho):
+    """Integral of c/rho drho along the isentrope from rho to rho_i (positive in an expansion)."""
+    panels = max(1, int(abs(math.log(rho_i / rho)) / 0.5) + 1)
+    edges = np.linspace(math.log(rho), math.log(rho_i), panels + 1)
+    total = 0.0
+    for low, high in zip(edges[:-1], edges[1:]):
+        for node, weight in zip(NODES, WEIGHTS):
+            at = math.exp(0.5 * (low + high) + 0.5 * (high - low) * node)
+            total += 0.5 * (high - low) * weight * eos.sound_speed(at, eos.isentrope(at, rho_i, p_i))
+    return total
+
+
+def wave(eos, rho_i, p_i, p):
+    """State behind a wave into (rho_i, p_i) that brings the pressure to p: density and |change of velocity| (signed: + in a shock)."""
+    shock = p > p_i
+    curve = eos.hugoniot if shock else eos.isentrope
+    low, high = (rho_i, rho_i * 40) if shock else (rho_i * 1e-9, rho_i)
+    if not shock and curve(low, rho_i, p_i) > p:
+        return low, -riemann_integral(eos, rho_i, p_i, low)
+    for _ in range(200):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if curve(middle, rho_i, p_i) < p else (low, middle)
+    rho = math.sqrt(low * high)
+    if shock:
+        return rho, math.sqrt(max((p - p_i) * (1 / rho_i - 1 / rho), 0.0))
+    return rho, -riemann_integral(eos, rho_i, p_i, rho)
+
+
+class Riemann:
+    """Exact solution of a Riemann problem; left and right are (rho, u, p) with their own equations of state."""
+
+    def __init__(self, left, right, eos_left, eos_right=None):
+        eos_right = eos_right or eos_left
+        self.left, self.right, self.eos = left, right, (eos_left, eos_right)
+        (rho_l, u_l, p_l), (rho_r, u_r, p_r) = left, right
+
+        def gap(p):
+            return (u_r + wave(eos_right, rho_r, p_r, p)[1]) - (u_l - wave(eos_left, rho_l, p_l, p)[1])
+        low, high = min(p_l, p_r) * 1e-12, max(p_l, p_r)
+        while gap(high) < 0:
+            high *= 2
+        for _ in range(120):
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if gap(middle) < 0 else (low, middle)
+            if high / low - 1 < 1e-14:
+                break
+        self.p = math.sqrt(low * high)
+        self.rho_left, change_l = wave(eos_left, rho_l, p_l, self.p)
+        self.rho_right, change_r = wave(eos_right, rho_r, p_r, self.p)
+        self.u = 0.5 * ((u_l - change_l) + (u_r + change_r))
+        self._fans = [self._fan(side) for side in (0, 1)]
+
+    def shock_speed(self, side):
+        """Speed of the shock on the left (0) or right (1) side; None if that wave is a fan."""
+        rho, u, p = (self.left, self.right)[side]
+        if self.p <= p:
+            return None
+        behind = (self.rho_left, self.rho_right)[side]
+        mass = math.sqrt((self.p - p) / (1 / rho - 1 / behind))
+        return u - mass / rho if side == 0 else u + mass / rho
+
+    def _fan(self, side):
+        """Table of (speed, rho, u, p) through the fan, in order of speed."""
+        rho_i, u_i, p_i = (self.left, self.right)[side]
+        if self.p > p_i:
+            return None
+        eos, end, sign = self.eos[side], (self.rho_left, self.rho_right)[side], (-1, 1)[side]
+        rows, u, previous = [], u_i, rho_i
+        for rho in np.exp(np.linspace(math.log(rho_i), math.log(end), 400)):
+            p_previous = eos.isentrope(previous, rho_i, p_i)
+            if rho != previous:
+                u += -sign * riemann_integral(eos, previous, p_previous, rho)
+            p = eos.isentrope(rho, rho_i, p_i)
+            rows.append((u + sign * eos.sound_speed(rho, p), rho, u, p))
+            previous = rho
+        return np.array(rows if side == 0 else rows[::-1])
+
+    def sample(self, s):
+        """(rho, u, p) arrays at the speeds s = (x - x0)/t."""
+        s = np.asarray(s, dtype=float)
+        out = np.empty((3,) + s.shape)
+        for side in (0, 1):
+            mine = s <= self.u if side == 0 else s > self.u
+            star = (self.rho_left if side == 0 else self.rho_right, self.u, self.p)
+            start = (self.left, self.right)[side]
+            fan, shock = self._fans[side], self.shock_speed(side)
+            if shock is not None:
+                outside = s < shock if side == 0 else s > shock
+                for k in range(3):
+                    out[k][mine] = np.where(outside, start[k], star[k])[mine]
+            else:
+                for k in range(3):
+                    out[k][mine] = np.interp(s, fan[:, 0], fan[:, 1 + k])[mine]
+                head = s < fan[0, 0] if side == 0 else s > fan[-1, 0]
+                for k in range(3):
+                    out[k][mine & head] = start[k]
+        return out
+
+    def cell_averages(self, edges, x0, t, points=64):
+        """Means of (rho, u, p) over the cells between the edges at time t."""
+        edges = np.asarray(edges)
+        at = (np.arange(points) + 0.5) / points
+        x = edges[:-1, None] + np.diff(edges)[:, None] * at
+        return self.sample((x - x0) / t).mean(axis=2)
+
+
+# F1 and F5: (left, right, eos_left, eos_right, x0, t)
+GAS = IdealGas(1.4)
+SHOCK_TUBES = {
+    "Sod": ((1, 0, 1), (.125, 0, .1), GAS, GAS, .5, .2), "Lax": ((.445, .698, 3.528), (.5, 0, .571), GAS, GAS, .5, .13),
+    "Toro1": ((1, .75, 1), (.125, 0, .1), GAS, GAS, .3, .2), "Toro2": ((1, -2, .4), (1, 2, .4), GAS, GAS, .5, .15),
+    "Toro3": ((1, 0, 1000), (1, 0, .01), GAS, GAS, .5, .012)}
+
+
+# --- pistons ---------------------------------------------------------------------------------------------------------------------------
+def free_piston(t, mass, rho0=1.225, p0=101325.0, gamma=1.4):
+    """C1: a piston of `mass` per area, gas on one side, vacuum on the other: u, x, p at time t (exact simple wave)."""
+    c0 = math.sqrt(gamma * p0 / rho0)
+
+    def y(time):
+        return (1 + (gamma + 1) / 2 * p0 * time / (mass * c0)) ** (-(gamma - 1) / (gamma + 1))
+
+    def u(time):
+        return 2 * c0 / (gamma - 1) * (1 - y(time))
+    x = sum(0.5 * t * w * u(0.5 * t * (1 + n)) for n, w in zip(NODES, WEIGHTS))
+    return u(t), x, p0 * y(t) ** (2 * gamma / (gamma - 1))
+
+
+def driven_piston(u_p, rho0=1.225, p0=101325.0, gamma=1.4):
+    """F10: wall pressure and density for a piston moving into (u_p > 0) or away from (u_p < 0) gas at rest, and the shock speed."""
+    c0 = math.sqrt(gamma * p0 / rho0)
+    if u_p > 0:
+        k = (gamma + 1) / 4 * u_p
+        speed = k + math.sqrt(k * k + c0 * c0)
+        return p0 + rho0 * speed * u_p, rho0 * speed / (speed - u_p), speed
+    ratio = max(1 + (gamma - 1) / 2 * u_p / c0, 0.0)
+    return p0 * ratio ** (2 * gamma / (gamma - 1)), rho0 * ratio ** (2 / (gamma - 1)), None
+
+
+# --- detonation -------------------------------------------------------------------------------------------------------------------------
+def planar_detonation(explosive, xi):
+    """F7: pressure and velocity at x = D t xi behind a plane detonation from a closed end; xi may be an array. Also the tail xi and p."""
+    cj = explosive.cj_state()
+    rho_cj = explosive.rho0 / cj["V"]
+    rows = []
+    for rho in np.exp(np.linspace(math.log(rho_cj), math.log(rho_cj / 3), 3000)):
+        u = cj["u"] - riemann_integral_fast(explosive, rho_cj, cj["P"], rho)
+        p = explosive.isentrope(rho, rho_cj, cj["P"])
+        rows.append(((u + explosive.sound_speed(rho, p)) / cj["D"], p, u))
+        if u <= 0:
+            break
+    table = np.array(rows[::-1])
+    tail = (table[0, 0], table[0, 1])
+    p = np.interp(xi, table[:, 0], table[:, 1])
+    u = np.interp(xi, table[:, 0], np.maximum(table[:, 2], 0))
+    return p, np.where(np.asarray(xi) < tail[0], 0.0, u), tail
+
+
+def riemann_integral_fast(eos, rho_i, p_i, rho, points=24):
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    low, high = math.log(rho), math.log(rho_i)
+    total = 0.0
+    for node, weight in zip(nodes, weights):
+        at = math.exp(0.5 * (low + high) + 0.5 * (high - low) * node)
+        total += 0.5 * (high - low) * weight * eos.sound_speed(at, eos.isentrope(at, rho_i, p_i))
+    return total
+
+
+# --- solid ---------------------------------------------------------------------------------------------------------------------------
+def ring_stop(r0, v0, e_young, rho, sigma_y, hardening):
+    """S9: thin ring in free flight, uniaxial Kirchhoff hoop stress, elastic then plastic: ln(r/r0) and time at the first stop.
+    The hoop stress is tau(eps) with log strain; the mass per reference length stays: r'' = -tau/(rho r)."""
+    plastic_slope = e_young * hardening / (e_young + hardening)
+    eps_y = sigma_y / e_young
+
+    def tau(eps):
+        return e_young * eps if eps < eps_y else sigma_y + plastic_slope * (eps - eps_y)
+
+    def rate(state):
+        return np.array([state[1], -tau(math.log(state[0] / r0)) / (rho * state[0])])
+    state, t, dt = np.array([r0, float(v0)]), 0.0, r0 / v0 * 1e-5 * 5
+    while True:
+        k1 = rate(state)
+        k2 = rate(state + 0.5 * dt * k1)
+        k3 = rate(state + 0.5 * dt * k2)
+        k4 = rate(state + dt * k3)
+        new = state + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        if new[1] <= 0:
+            part = state[1] / (state[1] - new[1])
+            return math.log((state[0] + part * (new[0] - state[0])) / r0), t + part * dt
+        state, t = new, t + dt
+
+
+def loaded_ring(r_i, wall, rho, sigma_y, hardening, peak, decay_length, speed, eps_limit, t_end=None):
+    """Section B: plane-strain incompressible ring under the front p0 exp(-D t/L) on its growing inner radius; hoop flow stress
+    (2/sqrt 3)(sigma_y + K alpha), alpha = (2/sqrt 3) ln(r/r0) of the mean radius. Returns time, velocity and radius at eps_limit."""
+    r0 = r_i + wall / 2
+    state, t, dt = np.array([r0, 0.0]), 0.0, 2e-8
+    factor = 2 / math.sqrt(3)
+    outer2_minus_inner2 = (r_i + wall) ** 2 - r_i ** 2
+
+    def rate(state, t):
+        r, v = state
+        alpha = factor * math.log(max(r / r0, 1.0))
+        # mean radius r: r_o^2 - r_i^2 = const, r_o + r_i = 2 r
+        thickness = outer2_minus_inner2 / (2 * r)
+        inner = r - thickness / 2
+        p = peak * math.exp(-speed * t / decay_length)
+        mass = rho * outer2_minus_inner2 / 2  # per radian
+        hoop = factor * (sigma_y + hardening * alpha) if (alpha > 0 or v > 0 or p > 0) else 0.0
+        return np.array([v, (p * inner - hoop * thickness) / mass])
+    while t < (t_end or 1e-3):
+        k1 = rate(state, t)
+        k2 = rate(state + 0.5 * dt * k1, t + 0.5 * dt)
+        k3 = rate(state + 0.5 * dt * k2, t + 0.5 * dt)
+        k4 = rate(state + dt * k3, t + dt)
+        state = state + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        t += dt
+        if eps_limit is not None and factor * math.log(state[0] / r0) >= eps_limit:
+            break
+    return t, state[1], state[0]
