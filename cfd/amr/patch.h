@@ -35,7 +35,7 @@ class Patch {
     rows_j_ = shape.n[1] + 2 * shape.ghost(1);
     rows_k_ = shape.n[2] + 2 * shape.ghost(2);
     stride_ = size_t(pitch_) * rows_j_ * rows_k_;
-    data_.assign(stride_ * Prim::stored, 0.0);
+    data_.assign(stride_ * Prim::rows, 0.0);
   }
   const BlockShape& shape() const { return shape_; }
   /// Pointer to cell (k, j, i = 0) of a Prim row. Packs may be loaded from i = -margin to i = n(0) + margin_right - 1.
@@ -48,8 +48,10 @@ class Patch {
   static constexpr int margin = 4;         ///< doubles before i = 0
   static constexpr int margin_right = 10;  ///< doubles from i = n on: two ghosts, and packs that hang over
 
-  int block = -1;    ///< local index of the block (cfd/amr/forest.h)
-  Vec3 lower;        ///< its lower corner [m]; centre of cell i: lower + (i + 1/2) h
+  int block = -1;        ///< local index of the block (cfd/amr/forest.h)
+  Vec3 lower;            ///< its lower corner [m]; centre of cell i: lower + (i + 1/2) h
+  bool burns = false;    ///< row Prim::stored_energy is filled
+  bool limited = false;  ///< row Prim::order is filled
   int material = 0;  ///< 1 or 2: the block and all ghosts hold this material alone (alpha1 exactly 1 or 0); 0: mixed
 
  private:

@@ -26,7 +26,10 @@ struct Prim {
     c = count,  ///< speed of sound [m/s]
     rho_c2,     ///< rho c^2 [Pa]
     dPi,        ///< arho1 dPi/d(arho1) + arho2 dPi/d(arho2) at constant alpha [Pa]: how Pi follows a compression
-    stored
+    stored,
+    stored_energy = stored,  ///< of a patch that burns: energy per mass of material 1 still to be released [J/kg]
+    order,                   ///< of a patch with limited cells: 1, or 0 where the cell is first order
+    rows
   };
 };
 

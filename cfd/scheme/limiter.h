@@ -11,10 +11,9 @@ struct MonotonizedCentral {
   static constexpr auto name = "mc";
   template <class T>
   static T slope(T a, T b) {
-    const T centre = T(0.5) * (a + b);
-    const T limit = T(2) * min(abs(a), abs(b));
-    const T bounded = min(max(centre, -limit), limit);
-    return select(a * b > T(0), bounded, T(0));
+    // All three positive: the first term; all three negative: the second; otherwise both vanish.
+    const T a2 = a + a, b2 = b + b, centre = T(0.5) * (a + b), zero = T(0);
+    return max(min(min(a2, b2), centre), zero) + min(max(max(a2, b2), centre), zero);
   }
 };
 

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// One MUSCL-Hancock step of one block: slopes and half step of a row of cells, HLLC at its lower faces, row after row,
+// so that face states live for one row (i, j) or one plane (k) only. Result: dt times the rate of change, undivided by
+// volume.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "cfd/amr/patch.h"
+#include "cfd/scheme/lane.h"
+#include "cfd/scheme/limiter.h"
+#include "cfd/scheme/positivity.h"
+
+namespace bw::cfd {
+
+/// Change of a block over one step, and what was noticed on the way. One per thread.
+struct BlockChange {
+  explicit BlockChange(const BlockShape& s) : shape(s), pitch((s.n[0] + 7) / 8 * 8 + 8) {
+    data.assign(size_t(Cons::count) * s.n[2] * s.n[1] * pitch, 0.0);
+  }
+  BlockChange() = default;
+  /// U_new - U_old of row (k, j), from i = 0; rows have room for hanging packs.
+  double* row(int variable, int k, int j) {
+    return data.data() + ((size_t(variable) * shape.n[2] + k) * shape.n[1] + j) * pitch;
+  }
+  const double* row(int variable, int k, int j) const { return const_cast<BlockChange*>(this)->row(variable, k, j); }
+
+  BlockShape shape;
+  int pitch = 0;
+  Aligned<double> data;
+  int64_t scaled_cells = 0;          ///< cells whose face states were scaled (positivity.h)
+  unsigned book_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted
+  double side[6][Cons::count] = {};  ///< out: sum over the side's faces of flux * dt/h_d, for book_sides
+};
+
+template <class Flow, class T>
+class BlockKernel {
+  static constexpr int n = Flow::n, n_flux = Flow::n_flux, w = Lane<T>::width, room = 4;
+
+ public:
+  explicit BlockKernel(const BlockShape& shape) : shape_(shape), pitch_(shape.n[0] + room + 14) {
+    for (auto* rows : {&minus_[0], &plus_[0], &minus_[1], &plus_[1], &old_y_, &minus_[2], &plus_[2]})
+      rows->assign(size_t(n) * pitch_, 0.0);
+    flux_.assign(size_t(n_flux + 1) * pitch_, 0.0);
+    old_z_.resize(size_t(shape.n[1]), Aligned<double>(size_t(n) * pitch_, 0.0));
+  }
+
+  /// Reads patch (filled, ghosts too); writes change (all rows of the flow's own variables; the others are left alone).
+  void advance(const Patch& patch, const Flow& flow, double dt, BlockChange& change) {
+    patch_ = &patch, flow_ = &flow, change_ = &change;
+    for (int d = 0; d < 3; ++d) lambda_[d] = shape_.used[d] ? dt / shape_.h[d] : 0;
+    change.scaled_cells = 0;
+    for (auto& side : change.side) std::fill(side, side + Cons::count, 0.0);
+    const int ky = shape_.used[1] ? 1 : 0, kz = shape_.used[2] ? 1 : 0;
+    for (int k = -kz; k < shape_.n[2] + kz; ++k)
+      for (int j = -ky; j < shape_.n[1] + ky; ++j) {
+        const bool in_k = k >= 0 && k < shape_.n[2], in_j = j >= 0 && j < shape_.n[1];
+        if (!in_k && !in_j) continue;
+        predict_row(k, j, in_k, in_j);
+        if (in_k && in_j) faces_x(k, j);
+        if (ky && in_k && j >= 0) faces_across<1>(k, j, old_y_);
+        if (ky) std::swap(old_y_, plus_[1]);
+        if (kz && in_j && k >= 0) faces_across<2>(k, j, old_z_[size_t(j)]);
+        if (kz && in_j) std::swap(old_z_[size_t(j)], plus_[2]);
+      }
+  }
+
+ private:
+  double* face(Aligned<double>& rows, int q) const { return rows.data() + size_t(q) * pitch_ + room; }
+
+  /// W(t + dt/2) at the six faces of the cells of row (k, j): minus_[d], plus_[d].
+  void predict_row(int k, int j, bool in_k, bool in_j) {
+    const bool inside = in_k && in_j,
+               wanted[3] = {shape_.used[0] && inside, shape_.used[1] && in_k, shape_.used[2] && in_j};
+    const int x = shape_.used[0] && inside ? 1 : 0;
+    const ptrdiff_t step[3] = {shape_.used[0] ? 1 : 0, shape_.used[1] ? patch_->stride_j() : 0,
+                               shape_.used[2] ? patch_->stride_k() : 0};
+    const T half_lambda[3] = {T(0.5 * lambda_[0]), T(0.5 * lambda_[1]), T(0.5 * lambda_[2])};
+    const double* W_row[n];
+    for (int q = 0; q < n; ++q) W_row[q] = patch_->row(flow_->prim_row(q), k, j);
+    const double* rho_c2 = patch_->row(Prim::rho_c2, k, j);
+    const double* dPi = patch_->row(Prim::dPi, k, j);
+    const double* order = patch_->limited ? patch_->row(Prim::order, k, j) : nullptr;
+    double *minus[3], *plus[3];
+    for (int d = 0; d < 3; ++d) minus[d] = face(minus_[d], 0), plus[d] = face(plus_[d], 0);
+    const ptrdiff_t pitch = pitch_;
+    const int end = shape_.n[0] + x;
+    for (int i = -x; i < end; i += w) {
+      T mean[n], half[n], slope[3][n];
+      for (int q = 0; q < n; ++q) {
+        const double* a = W_row[q] + i;
+        mean[q] = half[q] = Lane<T>::load(a);
+        for (int d = 0; d < 3; ++d)
+          slope[d][q] =
+              MonotonizedCentral::slope(mean[q] - Lane<T>::load(a - step[d]), Lane<T>::load(a + step[d]) - mean[q]);
+      }
+      Flow::predict(half, slope, half_lambda, Lane<T>::load(rho_c2 + i), Lane<T>::load(dPi + i));
+      if (order) {
+        const T keep = Lane<T>::load(order + i);
+        for (int q = 0; q < n; ++q) {
+          half[q] = mean[q] + keep * (half[q] - mean[q]);
+          for (int d = 0; d < 3; ++d) slope[d][q] = keep * slope[d][q];
+        }
+      }
+      const auto scaled = keep_faces_positive(*flow_, mean, half, slope);
+      if (inside && any(scaled)) count_scaled(scaled, i);
+      for (int d = 0; d < 3; ++d)
+        if (wanted[d])
+          for (int q = 0; q < n; ++q) {
+            Lane<T>::store(minus[d] + q * pitch + i, half[q] - T(0.5) * slope[d][q]);
+            Lane<T>::store(plus[d] + q * pitch + i, half[q] + T(0.5) * slope[d][q]);
+          }
+    }
+  }
+  void count_scaled(Mask m, int i) {
+    for (int l = 0; l < Pack::size; ++l) change_->scaled_cells += m[l] && i + l >= 0 && i + l < shape_.n[0];
+  }
+  void count_scaled(bool m, int i) { change_->scaled_cells += m && i >= 0 && i < shape_.n[0]; }
+
+  /// What a row of faces is solved from; a copy on the stack, which stores through pointers can't change.
+  struct Faces {
+    const double *low, *high, *c_low, *c_high, *z_low,
+        *z_high;  ///< upper states of the cells before, lower of the cells at i
+    ptrdiff_t pitch;
+    T lambda;
+    Flow flow;
+  };
+  Faces faces_of(int axis, Aligned<double>& low, int shift, ptrdiff_t step, int k, int j) {
+    const double* c = patch_->row(Prim::c, k, j);
+    const double* z = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, k, j) : nullptr;
+    return {face(low, 0) - shift,
+            face(minus_[axis], 0),
+            c - step,
+            c,
+            z ? z - step : nullptr,
+            z,
+            pitch_,
+            T(lambda_[axis]),
+            *flow_};
+  }
+  /// Flux times dt/h and face velocity times dt/h.
+  template <int axis>
+  static T solve(const Faces& f, int i, T (&F)[n_flux]) {
+    T L[n], R[n];
+    for (int q = 0; q < n; ++q) {
+      L[q] = Lane<T>::load(f.low + q * f.pitch + i);
+      R[q] = Lane<T>::load(f.high + q * f.pitch + i);
+    }
+    const T v_face = f.flow.template flux<axis>(L, R, Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i), F);
+    if constexpr (Flow::mixed)
+      if (f.z_low)
+        F[Cons::rhoE] += F[Cons::arho1] * (T(0.5) * (Lane<T>::load(f.z_low + i) + Lane<T>::load(f.z_high + i)));
+    for (int q = 0; q < n_flux; ++q) F[q] = f.lambda * F[q];
+    return f.lambda * v_face;
+  }
+
+  void faces_x(int k, int j) {
+    double* out[n_flux];
+    for (int q = 0; q < n_flux; ++q) out[q] = change_->row(flow_->cons_row(q), k, j);
+    const int n0 = shape_.n[0];
+    if (!shape_.used[0]) {
+      for (int q = 0; q < n_flux; ++q) std::fill(out[q], out[q] + n0, 0.0);
+      return;
+    }
+    const Faces f = faces_of(0, plus_[0], 1, 1, k, j);
+    double* flux = face(flux_, 0);
+    for (int i = 0; i <= n0; i += w) {
+      T F[n_flux];
+      const T v_face = solve<0>(f, i, F);
+      for (int q = 0; q < n_flux; ++q) Lane<T>::store(flux + q * f.pitch + i, F[q]);
+      if constexpr (Flow::mixed) Lane<T>::store(flux + n_flux * f.pitch + i, v_face);
+    }
+    const double* alpha1 = patch_->row(Prim::alpha1, k, j);
+    for (int q = 0; q < n_flux; ++q) {
+      const double *F = flux + q * f.pitch, *v_face = flux + n_flux * f.pitch;
+      for (int upper = 0; upper < 2; ++upper)
+        if (change_->book_sides >> upper & 1) change_->side[upper][flow_->cons_row(q)] += F[upper * n0];
+      for (int i = 0; i < n0; i += w) {
+        T d = Lane<T>::load(F + i) - Lane<T>::load(F + i + 1);
+        if (Flow::mixed && q == Cons::alpha1)
+          d -= Lane<T>::load(alpha1 + i) * (Lane<T>::load(v_face + i) - Lane<T>::load(v_face + i + 1));
+        Lane<T>::store(out[q] + i, d);
+      }
+    }
+  }
+
+  /// Faces between row (k, j) and the row before it along axis.
+  template <int axis>
+  void faces_across(int k, int j, Aligned<double>& low) {
+    const int at = axis == 1 ? j : k, end = shape_.n[axis];
+    const int j0 = axis == 1 ? j - 1 : j, k0 = axis == 2 ? k - 1 : k;
+    const ptrdiff_t step = axis == 1 ? patch_->stride_j() : patch_->stride_k();
+    const Faces f = faces_of(axis, low, 0, step, k, j);
+    const double* alpha1 = patch_->row(Prim::alpha1, k, j);
+    double *above[n_flux], *below[n_flux];
+    for (int q = 0; q < n_flux; ++q) {
+      above[q] = at < end ? change_->row(flow_->cons_row(q), k, j) : nullptr;
+      below[q] = at > 0 ? change_->row(flow_->cons_row(q), k0, j0) : nullptr;
+    }
+    const int side = 2 * axis + (at == 0 ? 0 : 1);
+    const bool booked = (at == 0 || at == end) && (change_->book_sides >> side & 1);
+    for (int i = 0; i < shape_.n[0]; i += w) {
+      T F[n_flux];
+      const T v_face = solve<axis>(f, i, F);
+      if (booked) book(side, F, std::min(w, shape_.n[0] - i));
+      if (at < end) add(above, i, F, v_face, alpha1, T(1));
+      if (at > 0) add(below, i, F, v_face, alpha1 - step, T(-1));
+    }
+  }
+  static void add(double* const (&out)[n_flux], int i, const T (&F)[n_flux], T v_face, const double* alpha1, T sign) {
+    for (int q = 0; q < n_flux; ++q) {
+      T d = F[q];
+      if constexpr (Flow::mixed)
+        if (q == Cons::alpha1) d -= Lane<T>::load(alpha1 + i) * v_face;
+      Lane<T>::store(out[q] + i, Lane<T>::load(out[q] + i) + sign * d);
+    }
+  }
+  void book(int side, const T (&F)[n_flux], int count) {
+    for (int q = 0; q < n_flux; ++q) {
+      double lane[w];
+      Lane<T>::store(lane, F[q]);
+      for (int l = 0; l < count; ++l) change_->side[side][flow_->cons_row(q)] += lane[l];
+    }
+  }
+
+  BlockShape shape_;
+  int pitch_;
+  double lambda_[3] = {};
+  const Patch* patch_ = nullptr;
+  const Flow* flow_ = nullptr;
+  BlockChange* change_ = nullptr;
+  Aligned<double> minus_[3], plus_[3], old_y_, flux_;  ///< face states of one row: [variable][i]
+  std::vector<Aligned<double>> old_z_;                 ///< upper z faces of the plane before, by j
+};
+
+}  // namespace bw::cfd
