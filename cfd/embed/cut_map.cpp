@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/embed/cut_map.h"
+
+#include <algorithm>
+
+namespace bw::cfd {
+
+void CutMap::clear(const Lattice& lattice) {
+  lattice_ = lattice;
+  for (int d = 0; d < 3; ++d) tiles_[d] = size_t((lattice.n[d] + 2 + edge - 1) / edge);
+  tile_.assign(tiles_[0] * tiles_[1] * tiles_[2], all_open);
+  flags_.clear();
+  for (auto& l : link_) l.clear();
+  links_.clear();
+}
+
+size_t CutMap::make_tile(const Index3& c) {
+  int32_t& t = tile_[tile_of(c)];
+  if (t >= 0) return size_t(t);
+  const uint8_t fill = t == all_covered ? uint8_t(cell_covered) : uint8_t(0);
+  t = int32_t(flags_.size() / cells);
+  flags_.resize(flags_.size() + cells, fill);
+  for (auto& l : link_) l.resize(flags_.size());
+  return size_t(t);
+}
+
+void CutMap::add_link(const Index3& c, int d, const CutLink& link) {
+  const size_t i = make_tile(c) * cells + place(c);
+  flags_[i] |= uint8_t(cell_cut << d);
+  link_[d][i] = int32_t(links_.size());
+  links_.push_back(link);
+  Index3 upper = c;
+  ++upper[d];
+  make_tile(upper);  // a tile without links is all open or all covered: cover() relies on it
+}
+
+void CutMap::cover(Index3 c, int d, int first, int last) {
+  first = std::max(first, -1);
+  last = std::min(last, lattice_.n[d]);
+  for (int i = first; i <= last;) {
+    c[d] = i;
+    const int end = std::min(last + 1, ((i + 1) / edge + 1) * edge - 1);  // first cell of the next tile
+    int32_t& t = tile_[tile_of(c)];
+    if (t < 0) {
+      t = all_covered;
+    } else {
+      for (; i < end; ++i) {
+        c[d] = i;
+        flags_[size_t(t) * cells + place(c)] |= cell_covered;
+      }
+    }
+    i = end;
+  }
+}
+
+bool CutMap::touches(Index3 lower, Index3 upper) const {
+  for (int d = 0; d < 3; ++d) {
+    lower[d] = std::max(lower[d], -1);
+    upper[d] = std::min(upper[d], lattice_.n[d] + 1);
+  }
+  auto next = [](int i) { return (i + 1) / edge * edge + edge - 1; };  // first cell of the next tile
+  Index3 c;
+  for (c[2] = lower[2]; c[2] < upper[2]; c[2] = next(c[2]))
+    for (c[1] = lower[1]; c[1] < upper[1]; c[1] = next(c[1]))
+      for (c[0] = lower[0]; c[0] < upper[0]; c[0] = next(c[0]))
+        if (tile_[tile_of(c)] != all_open) return true;
+  return false;
+}
+
+bool CutMap::all_blocked(const Index3& lower, const Index3& upper) const {
+  Index3 c;
+  for (c[2] = lower[2]; c[2] < upper[2]; ++c[2])
+    for (c[1] = lower[1]; c[1] < upper[1]; ++c[1])
+      for (c[0] = lower[0]; c[0] < upper[0]; ++c[0])
+        if (!blocked(c)) return false;
+  return true;
+}
+
+}  // namespace bw::cfd

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/embed/scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cfd/embed/predicates.h"
+#include "common/parallel/loop.h"
+
+namespace bw::cfd {
+namespace {
+
+/// A grid line in direction d, between centres i and i + 1, meets a triangle.
+struct Crossing {
+  uint64_t line;   // v * n_u + u
+  int32_t i;       // -2: below the lattice, n: above
+  int32_t face;
+  double at;       // in cell sizes from centre i, in [0, 1]
+  Vec3 n;          // unit normal of the face, turned with the triangle
+  Vec3 v;
+  bool up;         // the triangle's normal points along +d
+  bool thin;
+};
+
+/// Centres c with lower <= c <= upper (a hair more).
+struct Range {
+  int first, last;
+};
+Range centres_between(const Lattice& g, int d, double lower, double upper) {
+  const double a = (lower - g.lower[d]) / g.h[d] - 0.5, b = (upper - g.lower[d]) / g.h[d] - 0.5;
+  constexpr double hair = 1e-9;
+  const double n = g.n[d];
+  return {int(std::clamp(std::ceil(a - hair), 0.0, n)), int(std::clamp(std::floor(b + hair), -1.0, n - 1))};
+}
+
+struct Face {
+  const coupling::WetSurface& s;
+  const std::array<int32_t, 4>& q;
+  int32_t id;
+  Vec3 area;
+  bool thin;
+};
+
+/// Lines of direction d through one triangle of a face.
+class LineScan {
+ public:
+  LineScan(const Lattice& g, int d, std::vector<Crossing>& out) : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
+
+  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) const {
+    const Range ru = centres_between(g_, u_, std::min({a[u_], b[u_], c[u_]}), std::max({a[u_], b[u_], c[u_]}));
+    if (ru.first > ru.last) return;
+    const Range rv = centres_between(g_, v_, std::min({a[v_], b[v_], c[v_]}), std::max({a[v_], b[v_], c[v_]}));
+    for (int iv = rv.first; iv <= rv.last; ++iv)
+      for (int iu = ru.first; iu <= ru.last; ++iu) {
+        const double qu = g_.centre(u_, iu), qv = g_.centre(v_, iv);
+        const int s = side_of_line(a[u_], a[v_], b[u_], b[v_], qu, qv);
+        if (s == 0 || side_of_line(b[u_], b[v_], c[u_], c[v_], qu, qv) != s ||
+            side_of_line(c[u_], c[v_], a[u_], a[v_], qu, qv) != s)
+          continue;
+        add(f, a, b, c, na, nb, iu, iv, qu, qv, s);
+      }
+  }
+
+ private:
+  void add(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb, int iu, int iv, double qu, double qv, int s) const {
+    auto weight = [&](const Vec3& p, const Vec3& r) { return std::abs((p[u_] - qu) * (r[v_] - qv) - (p[v_] - qv) * (r[u_] - qu)); };
+    double wa = weight(b, c), wb = weight(c, a), wc = weight(a, b);
+    const double sum = wa + wb + wc;
+    if (sum > 0) wa /= sum, wb /= sum, wc /= sum;
+    else wa = wb = wc = 1.0 / 3;
+    const double lo = std::min({a[d_], b[d_], c[d_]}), hi = std::max({a[d_], b[d_], c[d_]});
+    const double z = std::clamp(wa * a[d_] + wb * b[d_] + wc * c[d_], lo, hi);
+    const bool up = (s > 0) != (d_ == 1);  // (u, v) is (z, x) turned for d = y
+
+    // the last centre below the crossing, decided exactly
+    const double index = std::clamp((z - g_.lower[d_]) / g_.h[d_] - 0.5, -1.5, double(g_.n[d_]) + 0.5);
+    int i = int(std::floor(index));
+    Vec3 q;
+    q[u_] = qu, q[v_] = qv;
+    auto above_centre = [&](int k) {
+      q[d_] = g_.centre(d_, k);
+      return (side_of_triangle(a, b, c, q) < 0) == up;
+    };
+    if (i >= -1 && i <= g_.n[d_]) {
+      while (i >= -1 && !above_centre(i)) --i;
+      while (i < g_.n[d_] && above_centre(i + 1)) ++i;
+    }
+    Crossing x;
+    x.line = uint64_t(iv) * uint64_t(g_.n[u_]) + uint64_t(iu);
+    x.i = i;
+    x.face = f.id;
+    x.at = std::clamp(index - i, 0.0, 1.0);
+    x.up = up;
+    x.thin = f.thin;
+    if (i >= -1 && i < g_.n[d_]) {  // else only the winding number counts
+      const Vec3 t = cross(b - a, c - a);
+      const double at = norm(t), af = norm(f.area);
+      // the mean normal of the quad is smoother, unless it is folded
+      x.n = dot(t, f.area) > 0.5 * at * af && (f.area[d_] > 0) == (t[d_] > 0) ? f.area / af : t / at;
+      const auto& v = f.s.v;
+      const Vec3 vc = f.q[2] == f.q[3] ? v[f.q[2]] : 0.25 * ((v[f.q[0]] + v[f.q[2]]) + (v[f.q[1]] + v[f.q[3]]));
+      x.v = v[f.q[na]] + wb * (v[f.q[nb]] - v[f.q[na]]) + wc * (vc - v[f.q[na]]);  // a common velocity is kept exactly
+    }
+    out_.push_back(x);
+  }
+
+  const Lattice& g_;
+  const int d_, u_, v_;
+  std::vector<Crossing>& out_;
+};
+
+std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g, int d) {
+  std::vector<Crossing> out;
+  const LineScan lines(g, d, out);
+  for (size_t f = 0; f < s.quads.size(); ++f) {
+    const auto& q = s.quads[f];
+    const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q), !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
+    for_each_triangle(s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) { lines(face, a, b, c, na, nb); });
+  }
+  std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
+    if (a.line != b.line) return a.line < b.line;
+    if (a.i != b.i) return a.i < b.i;
+    return a.at != b.at ? a.at < b.at : a.face < b.face;
+  });
+  return out;
+}
+
+/// body(first, last) for each run of crossings with equal key.
+template <class Key, class Body>
+void for_each_run(const Crossing* first, const Crossing* last, const Key& key, const Body& body) {
+  while (first != last) {
+    const Crossing* end = first;
+    while (end != last && key(*end) == key(*first)) ++end;
+    body(first, end);
+    first = end;
+  }
+}
+
+WallSide side_of(const Crossing& x, bool from_below) {
+  const bool flip = x.up == from_below;  // seen from below, the normal into the fluid points down
+  return {from_below ? x.at : 1 - x.at, flip ? -x.n : x.n, x.v, x.face};
+}
+
+Index3 line_cell(const Lattice& g, int d, uint64_t line) {
+  const int u = d == 0 ? 1 : 0, v = d == 2 ? 1 : 2;
+  Index3 c{};
+  c[u] = int(line % uint64_t(g.n[u]));
+  c[v] = int(line / uint64_t(g.n[u]));
+  return c;
+}
+
+int winding(const Crossing& x) { return x.thin ? 0 : x.up ? -1 : 1; }
+
+}  // namespace
+
+bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& map) {
+  map.clear(lattice);
+  std::vector<Crossing> found[3];
+  parallel_for_dynamic(3, [&](int64_t d) {
+    if (lattice.active(int(d)) || d == 0) found[d] = crossings(surface, lattice, int(d));
+  });
+  auto line_of = [](const Crossing& x) { return x.line; };
+  bool watertight = true;
+  for (int d = 0; d < 3; ++d)
+    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of, [&](const Crossing* first, const Crossing* last) {
+      Index3 c = line_cell(lattice, d, first->line);
+      int total = 0;
+      for (const Crossing* x = first; x != last; ++x) total += winding(*x);
+      watertight = watertight && total == 0;
+      for_each_run(first, last, [](const Crossing& x) { return x.i; }, [&](const Crossing* a, const Crossing* b) {
+        if (a->i < -1 || a->i >= lattice.n[d]) return;
+        c[d] = a->i;
+        map.add_link(c, d, {side_of(*a, true), side_of(b[-1], false)});
+      });
+    });
+  // all directions agree on a watertight surface; of an open one, each line in metal beyond it covers what it meets
+  for (int d = 0; d < 3; ++d) {
+    if (d > 0 && watertight) break;
+    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of, [&](const Crossing* first, const Crossing* last) {
+      const Index3 c = line_cell(lattice, d, first->line);
+      int w = 0, least = 0;
+      for (const Crossing* x = first; x != last; ++x) least = std::min(least, w += winding(*x));
+      w = w != 0 ? -least : 0;  // a line that does not come out of the metal it entered started in metal
+      int from = -1;
+      for (const Crossing* x = first; x != last; ++x) {
+        if (w > 0 && x->i >= from) map.cover(c, d, from, x->i);
+        w += winding(*x);
+        from = std::max(-1, x->i + 1);
+      }
+      if (w > 0) map.cover(c, d, from, lattice.n[d]);
+    });
+  }
+  return watertight;
+}
+
+}  // namespace bw::cfd
