@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the walls do to one lattice of cells: which centres lie in metal, and which links between neighbouring centres are cut,
-// where, by which face. Kept in small tiles that exist only near the surface, so memory and time go with its area.
+// What the walls do to one lattice of cells: which centres lie in metal, and which links between neighbouring centres
+// are cut, where, by which face. Kept in small tiles that exist only near the surface, so memory and time go with its
+// area.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -32,7 +33,7 @@ struct CutLink {
 
 class CutMap {
  public:
-  static constexpr int edge = 8;                       ///< cells per tile edge
+  static constexpr int edge = 8;  ///< cells per tile edge
   static constexpr int cells = edge * edge * edge;
 
   /// Everything open. Cells -1 .. n of each direction exist (a link may lead out of the lattice).
@@ -57,7 +58,8 @@ class CutMap {
   bool all_blocked(const Index3& lower, const Index3& upper) const;
   size_t link_count() const { return links_.size(); }
 
-  // --- building (scan.cpp, motion.cpp) --------------------------------------------------------------------------------------
+  // --- building (scan.cpp, motion.cpp)
+  // --------------------------------------------------------------------------------------
   void add_link(const Index3& c, int d, const CutLink& link);
   /// Cells [first, last] of the line through c in direction d are in metal. Call after all links were added.
   void cover(Index3 c, int d, int first, int last);
@@ -100,9 +102,9 @@ class CutMap {
 
   Lattice lattice_;
   size_t tiles_[3] = {0, 0, 0};
-  std::vector<int32_t> tile_;  ///< [tile] all_open, all_covered, or the place of its cells below
-  std::vector<uint8_t> flags_;      ///< [made tile][cell]
-  std::vector<int32_t> link_[3];    ///< [made tile][cell] into links_; valid where the flag is set
+  std::vector<int32_t> tile_;     ///< [tile] all_open, all_covered, or the place of its cells below
+  std::vector<uint8_t> flags_;    ///< [made tile][cell]
+  std::vector<int32_t> link_[3];  ///< [made tile][cell] into links_; valid where the flag is set
   std::vector<CutLink> links_;
 };
 

@@ -18,12 +18,14 @@ struct Triangle {
 /// Does the plane of the moving triangle go over q, with q within the triangle (a hair more) then?
 bool passes(const Triangle& old, const Triangle& now, const Vec3& q) {
   if (side_of_triangle(old.a, old.b, old.c, q) == side_of_triangle(now.a, now.b, now.c, q)) return false;
-  const double v0 = triple(old.b - old.a, old.c - old.a, q - old.a), v1 = triple(now.b - now.a, now.c - now.a, q - now.a);
+  const double v0 = triple(old.b - old.a, old.c - old.a, q - old.a),
+               v1 = triple(now.b - now.a, now.c - now.a, q - now.a);
   const double t = v0 == v1 ? 0.5 : std::clamp(v0 / (v0 - v1), 0.0, 1.0);
   const Vec3 a = old.a + t * (now.a - old.a), b = old.b + t * (now.b - old.b), c = old.c + t * (now.c - old.c);
   const Vec3 n = cross(b - a, c - a);
   const double hair = -1e-6 * dot(n, n);
-  return dot(cross(b - q, c - q), n) >= hair && dot(cross(c - q, a - q), n) >= hair && dot(cross(a - q, b - q), n) >= hair;
+  return dot(cross(b - q, c - q), n) >= hair && dot(cross(c - q, a - q), n) >= hair &&
+         dot(cross(a - q, b - q), n) >= hair;
 }
 
 void add_swept(const Triangle& old, const Triangle& now, const Lattice& g, std::vector<Index3>& out) {
@@ -44,7 +46,8 @@ void add_swept(const Triangle& old, const Triangle& now, const Lattice& g, std::
 
 }  // namespace
 
-std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::vector<Vec3>& x_before, const Lattice& lattice) {
+std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::vector<Vec3>& x_before,
+                                const Lattice& lattice) {
   constexpr int64_t chunk = 4096;
   const int64_t faces = int64_t(surface.quads.size()), chunks = (faces + chunk - 1) / chunk;
   std::vector<std::vector<Index3>> part(static_cast<size_t>(chunks));
@@ -53,8 +56,12 @@ std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::
       const auto& q = surface.quads[size_t(f)];
       Triangle old[4], now[4];
       int n = 0, m = 0;
-      for_each_triangle(x_before, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) { old[n++] = {a, b, c}; });
-      for_each_triangle(surface.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) { now[m++] = {a, b, c}; });
+      for_each_triangle(x_before, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) {
+        old[n++] = {a, b, c};
+      });
+      for_each_triangle(surface.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) {
+        now[m++] = {a, b, c};
+      });
       for (int i = 0; i < n; ++i) add_swept(old[i], now[i], lattice, part[size_t(p)]);
     }
   });

@@ -8,9 +8,10 @@
 
 namespace bw::cfd {
 
-/// Cells whose centre a face passed over while its nodes moved straight from x_before to surface.x; sorted, each once. Includes
-/// a few that a wall only touched: refilling those does no harm.
-std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::vector<Vec3>& x_before, const Lattice& lattice);
+/// Cells whose centre a face passed over while its nodes moved straight from x_before to surface.x; sorted, each once.
+/// Includes a few that a wall only touched: refilling those does no harm.
+std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::vector<Vec3>& x_before,
+                                const Lattice& lattice);
 
 struct FreshCell {
   Index3 cell;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Floating-point filters and exact fall-back of Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates" (1997); the exact part here is plain expansion arithmetic, as it runs for nearly no point.
+// Floating-point filters and exact fall-back of Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates" (1997); the exact part here is plain expansion arithmetic, as it runs for nearly no point.
 #include "cfd/embed/predicates.h"
 
 #include <cmath>
@@ -85,9 +85,8 @@ int side_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& q)
                        std::abs(w.z) * (std::abs(u.x * v.y) + std::abs(u.y * v.x));
   if (std::abs(det) > (7 + 56 * eps) * eps * bound) return sign_of(det);
   Exact sum;
-  const Difference d[3][3] = {{{b.x, a.x}, {b.y, a.y}, {b.z, a.z}},
-                              {{c.x, a.x}, {c.y, a.y}, {c.z, a.z}},
-                              {{q.x, a.x}, {q.y, a.y}, {q.z, a.z}}};
+  const Difference d[3][3] = {
+      {{b.x, a.x}, {b.y, a.y}, {b.z, a.z}}, {{c.x, a.x}, {c.y, a.y}, {c.z, a.z}}, {{q.x, a.x}, {q.y, a.y}, {q.z, a.z}}};
   constexpr int permutation[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
   for (int p = 0; p < 6; ++p)
     for (double e : d[0][permutation[p][0]].part)

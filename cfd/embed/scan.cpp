@@ -12,13 +12,13 @@ namespace {
 
 /// A grid line in direction d, between centres i and i + 1, meets a triangle.
 struct Crossing {
-  uint64_t line;   // v * n_u + u
-  int32_t i;       // -2: below the lattice, n: above
+  uint64_t line;  // v * n_u + u
+  int32_t i;      // -2: below the lattice, n: above
   int32_t face;
-  double at;       // in cell sizes from centre i, in [0, 1]
-  Vec3 n;          // unit normal of the face, turned with the triangle
+  double at;  // in cell sizes from centre i, in [0, 1]
+  Vec3 n;     // unit normal of the face, turned with the triangle
   Vec3 v;
-  bool up;         // the triangle's normal points along +d
+  bool up;  // the triangle's normal points along +d
   bool thin;
 };
 
@@ -44,7 +44,8 @@ struct Face {
 /// Lines of direction d through one triangle of a face.
 class LineScan {
  public:
-  LineScan(const Lattice& g, int d, std::vector<Crossing>& out) : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
+  LineScan(const Lattice& g, int d, std::vector<Crossing>& out)
+      : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
 
   void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) const {
     const Range ru = centres_between(g_, u_, std::min({a[u_], b[u_], c[u_]}), std::max({a[u_], b[u_], c[u_]}));
@@ -62,12 +63,17 @@ class LineScan {
   }
 
  private:
-  void add(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb, int iu, int iv, double qu, double qv, int s) const {
-    auto weight = [&](const Vec3& p, const Vec3& r) { return std::abs((p[u_] - qu) * (r[v_] - qv) - (p[v_] - qv) * (r[u_] - qu)); };
+  void add(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb, int iu, int iv, double qu,
+           double qv, int s) const {
+    auto weight = [&](const Vec3& p, const Vec3& r) {
+      return std::abs((p[u_] - qu) * (r[v_] - qv) - (p[v_] - qv) * (r[u_] - qu));
+    };
     double wa = weight(b, c), wb = weight(c, a), wc = weight(a, b);
     const double sum = wa + wb + wc;
-    if (sum > 0) wa /= sum, wb /= sum, wc /= sum;
-    else wa = wb = wc = 1.0 / 3;
+    if (sum > 0)
+      wa /= sum, wb /= sum, wc /= sum;
+    else
+      wa = wb = wc = 1.0 / 3;
     const double lo = std::min({a[d_], b[d_], c[d_]}), hi = std::max({a[d_], b[d_], c[d_]});
     const double z = std::clamp(wa * a[d_] + wb * b[d_] + wc * c[d_], lo, hi);
     const bool up = (s > 0) != (d_ == 1);  // (u, v) is (z, x) turned for d = y
@@ -114,8 +120,10 @@ std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g,
   const LineScan lines(g, d, out);
   for (size_t f = 0; f < s.quads.size(); ++f) {
     const auto& q = s.quads[f];
-    const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q), !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
-    for_each_triangle(s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) { lines(face, a, b, c, na, nb); });
+    const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
+                    !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
+    for_each_triangle(
+        s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) { lines(face, a, b, c, na, nb); });
   }
   std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
     if (a.line != b.line) return a.line < b.line;
@@ -162,33 +170,37 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
   auto line_of = [](const Crossing& x) { return x.line; };
   bool watertight = true;
   for (int d = 0; d < 3; ++d)
-    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of, [&](const Crossing* first, const Crossing* last) {
-      Index3 c = line_cell(lattice, d, first->line);
-      int total = 0;
-      for (const Crossing* x = first; x != last; ++x) total += winding(*x);
-      watertight = watertight && total == 0;
-      for_each_run(first, last, [](const Crossing& x) { return x.i; }, [&](const Crossing* a, const Crossing* b) {
-        if (a->i < -1 || a->i >= lattice.n[d]) return;
-        c[d] = a->i;
-        map.add_link(c, d, {side_of(*a, true), side_of(b[-1], false)});
-      });
-    });
+    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of,
+                 [&](const Crossing* first, const Crossing* last) {
+                   Index3 c = line_cell(lattice, d, first->line);
+                   int total = 0;
+                   for (const Crossing* x = first; x != last; ++x) total += winding(*x);
+                   watertight = watertight && total == 0;
+                   for_each_run(
+                       first, last, [](const Crossing& x) { return x.i; },
+                       [&](const Crossing* a, const Crossing* b) {
+                         if (a->i < -1 || a->i >= lattice.n[d]) return;
+                         c[d] = a->i;
+                         map.add_link(c, d, {side_of(*a, true), side_of(b[-1], false)});
+                       });
+                 });
   // all directions agree on a watertight surface; of an open one, each line in metal beyond it covers what it meets
   for (int d = 0; d < 3; ++d) {
     if (d > 0 && watertight) break;
-    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of, [&](const Crossing* first, const Crossing* last) {
-      const Index3 c = line_cell(lattice, d, first->line);
-      int w = 0, least = 0;
-      for (const Crossing* x = first; x != last; ++x) least = std::min(least, w += winding(*x));
-      w = w != 0 ? -least : 0;  // a line that does not come out of the metal it entered started in metal
-      int from = -1;
-      for (const Crossing* x = first; x != last; ++x) {
-        if (w > 0 && x->i >= from) map.cover(c, d, from, x->i);
-        w += winding(*x);
-        from = std::max(-1, x->i + 1);
-      }
-      if (w > 0) map.cover(c, d, from, lattice.n[d]);
-    });
+    for_each_run(found[d].data(), found[d].data() + found[d].size(), line_of,
+                 [&](const Crossing* first, const Crossing* last) {
+                   const Index3 c = line_cell(lattice, d, first->line);
+                   int w = 0, least = 0;
+                   for (const Crossing* x = first; x != last; ++x) least = std::min(least, w += winding(*x));
+                   w = w != 0 ? -least : 0;  // a line that does not come out of the metal it entered started in metal
+                   int from = -1;
+                   for (const Crossing* x = first; x != last; ++x) {
+                     if (w > 0 && x->i >= from) map.cover(c, d, from, x->i);
+                     w += winding(*x);
+                     from = std::max(-1, x->i + 1);
+                   }
+                   if (w > 0) map.cover(c, d, from, lattice.n[d]);
+                 });
   }
   return watertight;
 }

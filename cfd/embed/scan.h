@@ -6,9 +6,9 @@
 
 namespace bw::cfd {
 
-/// A quad is a fan of four triangles around the mean of its nodes: the same for its opposite lip, whatever the node order, smooth in
-/// time, with the area vector 1/2 d13 x d24. A triangle (last node twice) stays one. visit(a, b, c, i, j): the corners, and the
-/// local nodes of a and b; c is the fan's centre, or node 2 of a triangle.
+/// A quad is a fan of four triangles around the mean of its nodes: the same for its opposite lip, whatever the node
+/// order, smooth in time, with the area vector 1/2 d13 x d24. A triangle (last node twice) stays one. visit(a, b, c, i,
+/// j): the corners, and the local nodes of a and b; c is the fan's centre, or node 2 of a triangle.
 template <class T, class Visit>
 void for_each_triangle(const std::vector<Vec<T>>& x, const std::array<int32_t, 4>& q, const Visit& visit) {
   if (q[2] == q[3]) {
@@ -19,9 +19,10 @@ void for_each_triangle(const std::vector<Vec<T>>& x, const std::array<int32_t, 4
   for (int i = 0; i < 4; ++i) visit(x[q[i]], x[q[(i + 1) % 4]], c, i, (i + 1) % 4);
 }
 
-/// Fills the map: cut links, and cells whose centre lies in a closed body (winding number > 0, faces with face_thin not counted).
-/// Cost is linear in faces and crossings. Same result for any number of threads. Returns whether all grid lines left all metal that
-/// they entered; of an open surface (a wet part of a solid) what lies behind along a grid line counts as metal.
+/// Fills the map: cut links, and cells whose centre lies in a closed body (winding number > 0, faces with face_thin not
+/// counted). Cost is linear in faces and crossings. Same result for any number of threads. Returns whether all grid
+/// lines left all metal that they entered; of an open surface (a wet part of a solid) what lies behind along a grid
+/// line counts as metal.
 bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& map);
 
 }  // namespace bw::cfd
