@@ -19,10 +19,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double foot = 0.3048, inch = 0.0254, pound = 0.45359237, g_n = 9.80665;
+constexpr double pound_force = pound * g_n, gallon = 231 * inch * inch * inch;
 
 struct Unit {
   const char* symbol;
-  double si;  ///< one of it in SI
+  double si;
+  int ten;  ///< one of it is si * 10^ten in SI; whole powers of ten, so that "10 us" is 1e-5 to the last bit
   Dim dim;
   bool prefixable = false;
   double offset = 0;  ///< temperatures: kelvin = si * (value + offset)
@@ -32,83 +34,83 @@ constexpr Dim power_dim{1, 2, -3, 0}, viscosity_dim{1, -1, -1, 0}, diffusivity_d
 
 constexpr Unit units[] = {
     // length, area, volume
-    {"m", 1, dim::length, true},
-    {"in", inch, dim::length},
-    {"inch", inch, dim::length},
-    {"ft", foot, dim::length},
-    {"yd", 0.9144, dim::length},
-    {"mi", 1609.344, dim::length},
-    {"mil", 1e-3 * inch, dim::length},
-    {"micron", 1e-6, dim::length},
-    {"L", 1e-3, dim::volume, true},
-    {"l", 1e-3, dim::volume, true},
-    {"cc", 1e-6, dim::volume},
-    {"gal", 231 * inch* inch* inch, dim::volume},
+    {"m", 1, 0, dim::length, true},
+    {"in", inch, 0, dim::length},
+    {"inch", inch, 0, dim::length},
+    {"ft", foot, 0, dim::length},
+    {"yd", 0.9144, 0, dim::length},
+    {"mi", 1609.344, 0, dim::length},
+    {"mil", inch, -3, dim::length},
+    {"micron", 1, -6, dim::length},
+    {"L", 1, -3, dim::volume, true},
+    {"l", 1, -3, dim::volume, true},
+    {"cc", 1, -6, dim::volume},
+    {"gal", gallon, 0, dim::volume},
     // mass
-    {"g", 1e-3, dim::mass, true},
-    {"t", 1e3, dim::mass},
-    {"tonne", 1e3, dim::mass},
-    {"lb", pound, dim::mass},
-    {"lbm", pound, dim::mass},
-    {"oz", pound / 16, dim::mass},
-    {"gr", pound / 7000, dim::mass},
-    {"slug", pound* g_n / foot, dim::mass},
+    {"g", 1, -3, dim::mass, true},
+    {"t", 1, 3, dim::mass},
+    {"tonne", 1, 3, dim::mass},
+    {"lb", pound, 0, dim::mass},
+    {"lbm", pound, 0, dim::mass},
+    {"oz", pound / 16, 0, dim::mass},
+    {"gr", pound / 7000, 0, dim::mass},
+    {"slug", pound_force / foot, 0, dim::mass},
     // time, frequency
-    {"s", 1, dim::time, true},
-    {"sec", 1, dim::time},
-    {"min", 60, dim::time},
-    {"h", 3600, dim::time},
-    {"day", 86400, dim::time},
-    {"Hz", 1, dim::frequency, true},
-    {"rpm", 2 * pi / 60, dim::frequency},
+    {"s", 1, 0, dim::time, true},
+    {"sec", 1, 0, dim::time},
+    {"min", 60, 0, dim::time},
+    {"h", 3600, 0, dim::time},
+    {"day", 86400, 0, dim::time},
+    {"Hz", 1, 0, dim::frequency, true},
+    {"rpm", 2 * pi / 60, 0, dim::frequency},
     // temperature
-    {"K", 1, dim::temperature, true},
-    {"degC", 1, dim::temperature, false, 273.15},
-    {"degF", 5.0 / 9.0, dim::temperature, false, 459.67},
+    {"K", 1, 0, dim::temperature, true},
+    {"degC", 1, 0, dim::temperature, false, 273.15},
+    {"degF", 5.0 / 9.0, 0, dim::temperature, false, 459.67},
     // force, pressure
-    {"N", 1, dim::force, true},
-    {"dyn", 1e-5, dim::force, true},
-    {"dyne", 1e-5, dim::force},
-    {"lbf", pound* g_n, dim::force},
-    {"kgf", g_n, dim::force},
-    {"kip", 1e3 * pound* g_n, dim::force},
-    {"Pa", 1, dim::pressure, true},
-    {"bar", 1e5, dim::pressure, true},
-    {"atm", 101325, dim::pressure},
-    {"torr", 101325.0 / 760, dim::pressure},
-    {"mmHg", 133.322387415, dim::pressure},
-    {"psi", pound* g_n / (inch * inch), dim::pressure},
-    {"ksi", 1e3 * pound* g_n / (inch * inch), dim::pressure},
+    {"N", 1, 0, dim::force, true},
+    {"dyn", 1, -5, dim::force, true},
+    {"dyne", 1, -5, dim::force},
+    {"lbf", pound_force, 0, dim::force},
+    {"kgf", g_n, 0, dim::force},
+    {"kip", 1e3 * pound_force, 0, dim::force},
+    {"Pa", 1, 0, dim::pressure, true},
+    {"bar", 1, 5, dim::pressure, true},
+    {"atm", 101325, 0, dim::pressure},
+    {"torr", 101325.0 / 760, 0, dim::pressure},
+    {"mmHg", 133.322387415, 0, dim::pressure},
+    {"psi", pound_force / (inch * inch), 0, dim::pressure},
+    {"ksi", 1e3 * pound_force / (inch * inch), 0, dim::pressure},
     // energy, power
-    {"J", 1, dim::energy, true},
-    {"erg", 1e-7, dim::energy, true},
-    {"cal", 4.184, dim::energy, true},
-    {"eV", 1.602176634e-19, dim::energy, true},
-    {"BTU", 1055.05585262, dim::energy},
-    {"Wh", 3600, dim::energy, true},
-    {"W", 1, power_dim, true},
-    {"hp", 550 * foot* pound* g_n, power_dim},
+    {"J", 1, 0, dim::energy, true},
+    {"erg", 1, -7, dim::energy, true},
+    {"cal", 4.184, 0, dim::energy, true},
+    {"eV", 1.602176634e-19, 0, dim::energy, true},
+    {"BTU", 1055.05585262, 0, dim::energy},
+    {"Wh", 3600, 0, dim::energy, true},
+    {"W", 1, 0, power_dim, true},
+    {"hp", 550 * foot* pound* g_n, 0, power_dim},
     // velocity, acceleration
-    {"kn", 1852.0 / 3600, dim::velocity},
-    {"mph", 1609.344 / 3600, dim::velocity},
-    {"g0", g_n, dim::acceleration},
+    {"kn", 1852.0 / 3600, 0, dim::velocity},
+    {"mph", 1609.344 / 3600, 0, dim::velocity},
+    {"g0", g_n, 0, dim::acceleration},
     // viscosity
-    {"P", 0.1, viscosity_dim, true},
-    {"St", 1e-4, diffusivity_dim, true},
+    {"P", 1, -1, viscosity_dim, true},
+    {"St", 1, -4, diffusivity_dim, true},
     // plain numbers
-    {"rad", 1, dim::none, true},
-    {"deg", pi / 180, dim::none},
-    {"rev", 2 * pi, dim::none},
-    {"%", 0.01, dim::none},
+    {"rad", 1, 0, dim::none, true},
+    {"deg", pi / 180, 0, dim::none},
+    {"rev", 2 * pi, 0, dim::none},
+    {"%", 1, -2, dim::none},
 };
 
 struct Prefix {
   const char* symbol;
-  double factor;
+  int ten;
 };
-constexpr Prefix prefixes[] = {{"f", 1e-15},       {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"\xc2\xb5", 1e-6},
-                               {"\xce\xbc", 1e-6}, {"m", 1e-3},  {"c", 1e-2}, {"d", 1e-1}, {"h", 1e2},
-                               {"k", 1e3},         {"M", 1e6},   {"G", 1e9},  {"T", 1e12}};
+constexpr Prefix prefixes[] = {{"f", -15},       {"p", -12}, {"n", -9}, {"u", -6}, {"\xc2\xb5", -6},
+                               {"\xce\xbc", -6}, {"m", -3},  {"c", -2}, {"d", -1}, {"h", 2},
+                               {"k", 3},         {"M", 6},   {"G", 9},  {"T", 12}};
 
 struct Named {
   Dim dim;
@@ -151,13 +153,14 @@ Unit find_unit(std::string_view symbol) {
     const std::string_view prefix = p.symbol;
     if (!symbol.starts_with(prefix)) continue;
     for (const Unit& u : units)
-      if (u.prefixable && symbol.substr(prefix.size()) == u.symbol) return {u.symbol, p.factor * u.si, u.dim};
+      if (u.prefixable && symbol.substr(prefix.size()) == u.symbol) return {u.symbol, u.si, p.ten + u.ten, u.dim};
   }
   throw InputError(fmt::format("unknown unit \"{}\" (--manual lists the units)", symbol));
 }
 
 struct Scale {
   double si = 1;
+  int ten = 0;
   Dim dim;
   double offset = 0;
 };
@@ -189,6 +192,7 @@ class UnitParser {
       const Scale f = factor(depth);
       if (f.offset != 0) refuse_offset();
       all.si = divide ? all.si / f.si : all.si * f.si;
+      all.ten += divide ? -f.ten : f.ten;
       all.dim = times(all.dim, f.dim, divide ? -1 : 1);
     }
     if (!alone && all.offset != 0) refuse_offset();
@@ -205,12 +209,12 @@ class UnitParser {
       return s;
     } else {
       const Unit u = find_unit(symbol());
-      s = {u.si, u.dim, u.offset};
+      s = {u.si, u.ten, u.dim, u.offset};
     }
     const int n = power();
     if (n == 1) return s;
     if (s.offset != 0) refuse_offset();
-    return {std::pow(s.si, n), times({}, s.dim, n), 0};
+    return {std::pow(s.si, n), n * s.ten, times({}, s.dim, n), 0};
   }
 
   /// Letters, "%" and the micro sign; "g0" is the one symbol with a digit.
@@ -294,7 +298,8 @@ Quantity read_quantity(const std::string& text) {
   const std::string_view unit = trimmed(s.substr(size_t(end - s.data())));
   if (unit.empty()) return {value, dim::none, false};
   const Scale scale = UnitParser(unit).all();
-  const double si = scale.si * (value + scale.offset);
+  const double power = std::pow(10.0, std::abs(scale.ten));  // exact to 10^22
+  const double base = scale.si * (value + scale.offset), si = scale.ten < 0 ? base / power : base * power;
   if (!std::isfinite(si)) throw InputError("a number out of range");
   return {si, scale.dim, true};
 }
@@ -326,7 +331,7 @@ std::string si_symbol(Dim dim) {
     side += std::abs(n) == 1 ? std::string(symbol) : fmt::format("{}^{}", symbol, std::abs(n));
     if (n < 0) ++count_below;
   }
-  if (above.empty()) above = "1";
+  if (above.empty()) above.push_back('1');
   if (below.empty()) return above;
   return count_below == 1 ? fmt::format("{}/{}", above, below) : fmt::format("{}/({})", above, below);
 }

@@ -73,6 +73,14 @@ TEST(Quantity, reads_numbers_with_units) {
   }
 }
 
+TEST(Quantity, powers_of_ten_are_exact) {
+  EXPECT_EQ(parse_quantity("10 us", dim::time), 10e-6);
+  EXPECT_EQ(parse_quantity("7.76 g/cm^3", dim::density), 7760);
+  EXPECT_EQ(parse_quantity("1.283e10 dyn/cm^2", dim::pressure), 1.283e9);
+  EXPECT_EQ(parse_quantity("0.7 km/s", dim::velocity), 700);
+  EXPECT_EQ(parse_quantity("1.3 mm", dim::length), 1.3e-3);
+}
+
 TEST(Quantity, refuses_what_it_does_not_understand) {
   const struct {
     const char* text;
