@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases of the fluid program: shock tubes, contacts, detonation, blast, pistons, embedded walls."""
+import math
+import sys
+
+import numpy as np
+
+from . import reference
+from .case import ROOT, at_least, at_most, case, close, near, output, run, row, unit_rows
+
+sys.path.insert(0, str(ROOT / "run"))
+import fields  # noqa: E402
+
+AIR_EOS = 'eos = {kind = "ideal_gas", gamma = 1.4}'
+AXES = "xyz"
+
+
+def eos_text(eos):
+    if isinstance(eos, reference.Jwl):
+        return (f'{{kind = "jwl", A = {eos.a!r}, B = {eos.b!r}, R1 = {eos.r1!r}, R2 = {eos.r2!r}, omega = {eos.omega!r}, rho0 = {eos.rho0!r}, '
+                f'E0 = {eos.e0!r}}}')
+    if eos.p_inf:
+        return f'{{kind = "stiffened_gas", gamma = {eos.gamma!r}, p_inf = {eos.p_inf!r}}}'
+    return f'{{kind = "ideal_gas", gamma = {eos.gamma!r}}}'
+
+
+def material(name, eos):
+    return f'[[fluid.material]]\nname = "{name}"\neos = {eos_text(eos)}\n'
+
+
+def region(shape, name, density, pressure, velocity=None):
+    text = f'[[fluid.region]]\nshape = {shape}\nmaterial = "{name}"\ndensity = {density!r}\npressure = {pressure!r}\n'
+    return text + (f"velocity = {[float(v) for v in velocity]}\n" if velocity is not None else "")
+
+
+def along(axis, value, rest=0.0):
+    """A vector with `value` in the direction `axis`."""
+    vector = [rest] * 3
+    vector[axis] = value
+    return vector
+
+
+def tube(lower, upper, n, axis, boundary, end, extra="", fields_every=None, history_every=0.0):
+    """Head of a one-dimensional case along `axis`; cells are cubes."""
+    h = (upper - lower) / n
+    cells = [1, 1, 1]
+    cells[axis] = n
+    low, high = along(axis, lower), [h] * 3
+    high[axis] = upper
+    ends = ", ".join(f'{AXES[axis]}_{side} = "{kind}"' for side, kind in zip(("lower", "upper"), boundary))
+    return (f"[time]\nend = {end!r}\n" + output(f"{end if fields_every is None else fields_every!r} s", f"{history_every!r} s")
+            + f"[fluid]\nlower = {low}\nupper = {high}\ncells = {cells}\nboundary = {{{ends}}}\n" + extra)
+
+
+def half_space(position, axis):
+    return f'{{kind = "half_space", point = {along(axis, float(position))}, normal = {along(axis, 1.0)}}}'
+
+
+def shock_tube(name, left, right, eos_left, eos_right, x0, t, n, axis=0, lower=0.0, upper=1.0):
+    """Runs a Riemann problem; centres, density, velocity, pressure, seconds."""
+    two = eos_left is not eos_right
+    names = ("left", "right") if two else ("gas", "gas")
+    text = tube(lower, upper, n, axis, ("outflow", "outflow"), t)
+    text += material(names[0], eos_left) + (material(names[1], eos_right) if two else "")
+    text += region('{kind = "everywhere"}', names[0], float(left[0]), float(left[2]), along(axis, float(left[1])))
+    text += region(half_space(x0, axis), names[1], float(right[0]), float(right[2]), along(axis, float(right[1])))
+    result = run(name, text, only="fluid")
+    x, rho, u, p = profile(result.directory, axis)
+    return x, rho, u, p, result
+
+
+def profile(directory, axis, which=-1):
+    """x, density, velocity along the axis, pressure of a 1-D field file."""
+    t, path = fields.series(directory, "fluid")[which]
+    flow = fields.Fluid(path)
+    velocity = flow.levels[0][2]["velocity"]
+    component = velocity[:, axis] if velocity.ndim == 2 else velocity
+    flow.levels[0][2]["u"] = component
+    return (flow.centres(axis), *(flow.array(name).reshape(-1) for name in ("density", "u", "pressure")))
+
+
+def plateau(x, values, low, high):
+    inside = (x > low) & (x < high)
+    return float(np.mean(values[inside]))
+
+
+TABLE_L1 = {"Sod": (4.56e-3, 2.72e-3, 1.47e-3), "Toro1": (5.61e-3, 2.92e-3, 1.82e-3), "Toro3": (.119, .0758, .0419)}
+
+
+@case("F1", quick=True)
+def f1():
+    """Riemann problems of an ideal gas: L1 error of density, order, conservation, and the same bits along x, y, z"""
+    resolutions = (100, 200, 400)
+    for name, (left, right, eos, _, x0, t) in reference.SHOCK_TUBES.items():
+        exact = reference.Riemann(left, right, eos)
+        errors = []
+        for k, n in enumerate(resolutions):
+            x, rho, u, p, result = shock_tube(f"F1_{name}_{n}", left, right, eos, eos, x0, t, n)
+            expected = exact.cell_averages(np.linspace(0, 1, n + 1), x0, t)[0]
+            errors.append(float(np.mean(np.abs(rho - expected))))
+            if name in TABLE_L1:
+                yield at_most(f"{name} N={n}: L1(density)", errors[-1], 1.5 * TABLE_L1[name][k], result.seconds)
+        order = math.log(errors[0] / errors[-1]) / math.log(resolutions[-1] / resolutions[0])
+        yield at_least(f"{name}: order of L1, N={resolutions[0]}..{resolutions[-1]}", order, 0.75)
+        yield at_least(f"{name}: least density", rho.min(), 0.0)
+        yield at_least(f"{name}: least pressure", p.min(), 0.0)
+    left, right, eos, _, x0, t = reference.SHOCK_TUBES["Sod"]
+    base = shock_tube("F1_axis_x", left, right, eos, eos, x0, t, 100, axis=0)
+    for axis in (1, 2):
+        other = shock_tube(f"F1_axis_{AXES[axis]}", left, right, eos, eos, x0, t, 100, axis=axis)
+        yield at_most(f"Sod along {AXES[axis]} against x: max |density|", np.abs(other[1] - base[1]).max(), 1e-12)
+
+
+@case("F5", quick=True)
+def f5():
+    """Two materials: a contact carried for one period keeps p and u; JWL against air; gas against gas"""
+    tnt = reference.JWL_SETS["TNT"]
+    for density in (50.0, 1225.0):
+        n, p0, u0 = 96, 101325.0, 100.0
+        text = tube(0.0, 1.0, n, 0, ("periodic", "periodic"), 0.01) + material("products", tnt) + material("air", reference.GAS)
+        text += region('{kind = "everywhere"}', "air", 1.225, p0, (u0, 0, 0))
+        text += region('{kind = "box", lower = [0.25, -1.0, -1.0], upper = [0.75, 1.0, 1.0]}', "products", density, p0, (u0, 0, 0))
+        result = run(f"F5_contact_{density:.0f}", text, only="fluid")
+        x, rho, u, p = profile(result.directory, 0)
+        yield at_most(f"contact {density:g}:1.225, one period: max |p/p0-1|", np.abs(p / p0 - 1).max(), 1e-11, result.seconds)
+        yield at_most(f"contact {density:g}:1.225, one period: max |u/u0-1|", np.abs(u / u0 - 1).max(), 1e-11)
+    # (i) constant-volume burn of TNT against air
+    p_left = tnt.pressure(1630.0, 7e9 / 1630)
+    left, right, t = (1630.0, 0.0, p_left), (1.225, 0.0, 101325.0), 2e-5
+    exact = reference.Riemann(left, right, tnt, reference.GAS)
+    x, rho, u, p, result = shock_tube("F5_jwl_air", left, right, tnt, reference.GAS, 0.5, t, 400)
+    contact, shock = 0.5 + exact.u * t, 0.5 + exact.shock_speed(1) * t
+    inside = (contact + 0.15 * (shock - contact), shock - 0.3 * (shock - contact))
+    yield close("JWL|air N=400: p*", plateau(x, p, *inside), exact.p, 0.02, result.seconds)
+    yield close("JWL|air N=400: u*", plateau(x, u, *inside), exact.u, 0.02)
+    jump = np.interp(0.5 * exact.p, p[::-1], x[::-1]) if (np.diff(p) <= 0).all() else x[np.flatnonzero(p > 0.5 * exact.p)[-1]] + 0.5 / 400
+    yield close("JWL|air N=400: shock position less 0.5 / t", (jump - 0.5) / t, exact.shock_speed(1), 0.005)
+    for name, left, right, eos_l, eos_r, t in (("1.4|1.2", (1, 0, 1), (.125, 0, .1), 1.4, 1.2, .15),
+                                              ("1.4|1.667", (1, 0, 500), (1, 0, .2), 1.4, 1.667, .015)):
+        eos_l, eos_r = reference.IdealGas(eos_l), reference.IdealGas(eos_r)
+        exact = reference.Riemann(left, right, eos_l, eos_r)
+        x, rho, u, p, result = shock_tube(f"F5_{name}", left, right, eos_l, eos_r, 0.5, t, 400)
+        contact, shock = 0.5 + exact.u * t, 0.5 + exact.shock_speed(1) * t
+        inside = (contact + 0.25 * (shock - contact), shock - 0.25 * (shock - contact))
+        yield close(f"gases {name} N=400: p*", plateau(x, p, *inside), exact.p, 0.01, result.seconds)
+        yield close(f"gases {name} N=400: u*", plateau(x, u, *inside), exact.u, 0.01)
+
+
+@case("F6", quick=True)
+def f6():
+    """Every explosive of the library: D and P_CJ computed from its JWL set against the tabulated ones"""
+    yield from unit_rows("cfd", "*CJ*:*Cj*:*Detonation*:*Library*:*library*")
+
+
+@case("F7")
+def f7():
+    """Plane detonation of TNT from a closed end: speed, pressure profile, tail, stored energy"""
+    tnt = reference.JWL_SETS["TNT"]
+    length, n = 0.1, 400
+    cj = tnt.cj_state()
+    end = 0.9 * length / cj["D"]
+    text = tube(0.0, length, n, 0, ("wall", "outflow"), end, fields_every=end / 3)
+    text += '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n'
+    text += '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "TNT"\nunburnt = true\npressure = 101325.0\n'
+    text += f'[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.0, {length / n / 2!r}, {length / n / 2!r}]]\n'
+    result = run("F7_planar", text, only="fluid")
+    times = [t for t, _ in fields.series(result.directory, "fluid")]
+    x, rho, u, p = profile(result.directory, 0)
+    t = times[-1]
+    xi = x / (cj["D"] * t)
+    p_exact, u_exact, tail = reference.planar_detonation(tnt, xi)
+    fan = (xi > 1.03 * tail[0]) & (xi <= 0.95)
+    yield at_most("p over the fan to xi=0.95: max relative error", np.abs(p[fan] / p_exact[fan] - 1).max(), 0.03, result.seconds)
+    still = (xi > 0.1) & (xi < 0.9 * tail[0])
+    yield close("pressure at rest behind the fan", p[still].mean(), tail[1], 0.02)
+    yield at_least("peak pressure over P_CJ (>= 0.9)", p.max() / cj["P"], 0.9)
+    fronts = []
+    for k in (-2, -1):
+        x, _, _, p = profile(result.directory, 0, k)
+        high = np.flatnonzero(p > 0.4 * cj["P"])[-1]
+        fronts.append(x[high] + (x[1] - x[0]) * (p[high] - 0.4 * cj["P"]) / (p[high] - p[high + 1]))
+    yield close("detonation speed", (fronts[1] - fronts[0]) / (times[-1] - times[-2]), cj["D"], 0.005)
+
+
+@case("F8")
+def f8():
+    """Sedov blast in an octant, 64^3: shock radius on axis and diagonal, peak density"""
+    n, size = 64, 1.2
+    h = size / n
+    energy = 0.851072 / 8
+    text = f"[time]\nend = 1.0\n" + output("1 s", "0.1 s")
+    text += f"[fluid]\nlower = [0, 0, 0]\nupper = [{size}, {size}, {size}]\ncells = [{n}, {n}, {n}]\n"
+    text += 'boundary = {x_upper = "outflow", y_upper = "outflow", z_upper = "outflow"}\n' + material("gas", reference.GAS)
+    text += region('{kind = "everywhere"}', "gas", 1.0, 1e-6)
+    edge = h * 1.0001
+    text += region(f'{{kind = "box", lower = [-1.0, -1.0, -1.0], upper = [{edge!r}, {edge!r}, {edge!r}]}}', "gas", 1.0, 0.4 * energy / h ** 3)
+    result = run("F8_octant", text, only="fluid")
+    flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
+    rho = flow.array("density")
+    centres = flow.centres(0)
+
+    def radius(values, r):
+        peak = int(np.argmax(values))
+        half = 0.5 * (1 + values[peak])
+        after = peak + int(np.flatnonzero(values[peak:] < half)[0])
+        a, b = values[after - 1], values[after]
+        return r[after - 1] + (a - half) / (a - b) * (r[after] - r[after - 1])
+    axis = np.mean([radius(rho[:, 0, 0], centres), radius(rho[0, :, 0], centres), radius(rho[0, 0, :], centres)])
+    diagonal = radius(rho[range(n), range(n), range(n)], centres * math.sqrt(3))
+    grid = np.sqrt(sum(np.meshgrid(centres ** 2, centres ** 2, centres ** 2, indexing="ij")))
+    bins = (grid / h).astype(int)
+    mean = np.bincount(bins.ravel(), rho.ravel()) / np.bincount(bins.ravel())
+    yield close("shock radius, mean over angles", radius(mean[:n], (np.arange(n) + 0.5) * h), 1.0, 0.01, result.seconds)
+    yield at_most("axis against diagonal radius", abs(axis / diagonal - 1), 0.01)
+    yield at_least("peak density (>= 3.5)", rho.max(), 3.5)
+
+
+@case("F10")
+def f10():
+    """Impulsively started pistons, 50 to 2000 m/s, pushing and withdrawing: wall pressure and density, 400 cells"""
+    n, x0 = 400, 0.5
+    for speed in (50, 100, 340, 1000, -50, -100, -340, -1000, -2000):
+        t = 1e-3 if abs(speed) < 1000 else 2e-4
+        text = tube(0.0, 2.0, n, 0, ("wall", "outflow"), t) + material("air", reference.GAS)
+        text += region('{kind = "everywhere"}', "air", 1.225, 101325.0)
+        text += (f'[[fluid.body]]\nname = "piston"\nthin = true\nshape = {{kind = "plane", point = [{x0}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
+                 f'motion = {{kind = "velocity", velocity = [{float(speed)!r}, 0.0, 0.0]}}\n')
+        result = run(f"F10_{speed}", text, only="fluid")
+        x, rho, u, p = profile(result.directory, 0)
+        wall = x0 + speed * t
+        expected_p, expected_rho, shock = reference.driven_piston(speed)
+        h = 2.0 / n
+        c0 = math.sqrt(1.4 * 101325 / 1.225)
+        reach = shock * t if shock else max((c0 + 1.2 * speed) * t, speed * t)
+        inside = (wall + 4 * h, wall + 4 * h + max(0.6 * (x0 + reach - wall - 8 * h), 2 * h))
+        name = f"{'push' if speed > 0 else 'withdraw'} {abs(speed)} m/s"
+        if expected_p > 1000:
+            yield close(f"{name}: wall pressure plateau", plateau(x, p, *inside), expected_p, 0.01, result.seconds)
+            first = int(np.flatnonzero(x > wall + 0.5 * h)[0])
+            yield close(f"{name}: density beside the wall", rho[first], expected_rho, 0.05)
+        else:
+            yield at_most(f"{name}: wall pressure over p0 (exact {expected_p / 101325:.2g})", plateau(x, p, *inside) / 101325, 0.01, result.seconds)
+            yield at_least(f"{name}: least pressure", p.min(), 0.0)
+
+
+def block(n, body, u, end, extra=""):
+    text = f"[time]\nend = {end!r}\n" + output(f"{end!r} s", "0 s")
+    text += f"[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [{n}, {n}, {n}]\n"
+    sides = ", ".join(f'{a}_{s} = "periodic"' for a in AXES for s in ("lower", "upper"))
+    return text + f"boundary = {{{sides}}}\n" + material("air", reference.GAS) + extra + body
+
+
+@case("F13", quick=True)
+def f13():
+    """Embedded walls that must change nothing: uniform flow with co-moving bodies, rest in a tilted box, a thin plate between 1 and 100 bar"""
+    u = (100.0, 50.0, 20.0)
+    flow_text = region('{kind = "everywhere"}', "air", 1.225, 101325.0, u)
+    for shape in ('{kind = "sphere", centre = [0.41, 0.43, 0.47], radius = 0.2}',
+                  '{kind = "box", lower = [0.3, 0.3, 0.3], upper = [0.6, 0.55, 0.65]}'):
+        kind = shape.split('"')[1]
+        body = f'[[fluid.body]]\nname = "body"\nshape = {shape}\nmotion = {{kind = "velocity", velocity = {list(u)}}}\n'
+        result = run(f"F13a_{kind}", block(32, body, u, 2e-3, flow_text), only="fluid")
+        flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
+        p, rho = flow.array("pressure"), flow.array("density")
+        yield at_most(f"(a) uniform flow past a moving {kind}: max |p/p0-1|", np.nanmax(np.abs(p / 101325 - 1)), 1e-12, result.seconds)
+        yield at_most(f"(a) uniform flow past a moving {kind}: max |rho/rho0-1|", np.nanmax(np.abs(rho / 1.225 - 1)), 1e-12)
+    body = ('[[fluid.body]]\nname = "box"\nthin = true\nshape = {kind = "box", lower = [-0.3, -0.25, -0.2], upper = [0.3, 0.25, 0.2], '
+            'centre = [0.5, 0.5, 0.5], rotation = [30.0, 20.0, 10.0]}\nmotion = {kind = "fixed"}\n')
+    result = run("F13b", block(32, body, (0, 0, 0), 2e-2, region('{kind = "everywhere"}', "air", 1.225, 101325.0)), only="fluid")
+    flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
+    yield at_most("(b) rest in a tilted closed box: max |p/p0-1|", np.nanmax(np.abs(flow.array("pressure") / 101325 - 1)), 1e-12, result.seconds)
+    yield from plate()
+
+
+def plate():
+    """F13 (c): a plate of no thickness between 1 bar and 100 bar, 10,000 steps."""
+    for position, note in ((0.5, "on cell faces"), (0.5 + 0.37 / 32, "between")):
+        text = "[time]\nend = 1.0\nmax_steps = 10000\n" + output("1 s", "0.001 s")
+        text += "[fluid]\nlower = [0, 0, 0]\nupper = [1, 0.5, 0.5]\ncells = [32, 16, 16]\n" + material("air", reference.GAS)
+        text += region('{kind = "everywhere"}', "air", 1.225, 1e5) + region(half_space(position, 0), "air", 122.5, 1e7)
+        text += (f'[[fluid.body]]\nname = "plate"\nthin = true\nshape = {{kind = "plane", point = [{position!r}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
+                 'motion = {kind = "fixed"}\n')
+        result = run(f"F13c_{note.replace(' ', '_')}", text, only="fluid")
+        flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
+        rho = flow.array("density")
+        left = flow.centres(0) < position
+        mass = (rho[left].mean() / 1.225 - 1, rho[~left].mean() / 122.5 - 1)
+        yield at_most(f"(c) plate {note}: relative change of mass, either side", max(abs(m) for m in mass), 1e-12, result.seconds)
+        yield at_most(f"(c) plate {note}: max |p/p_side-1|", max(np.abs(flow.array('pressure')[left] / 1e5 - 1).max(),
+                                                                 np.abs(flow.array('pressure')[~left] / 1e7 - 1).max()), 1e-12)

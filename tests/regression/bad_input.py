@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Wrong input, through the real programs: each must end with exit code 2 before the first step and name file and line.
+    bad_input.py BUILD_FOLDER [name ...]    prints each message"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+BUILD = pathlib.Path(sys.argv[1]).resolve()
+
+SOLID = """\
+[time]
+end = "1 us"
+[output]
+directory = "out"
+[[solid.body]]
+name = "block"
+mesh = {kind = "box", lower = [0, 0, 0], upper = ["10 mm", "10 mm", "10 mm"], cells = [2, 2, 2]}
+[solid.body.material]
+kind = "j2"
+density = "7.8 g/cm^3"
+young_modulus = "206 GPa"
+poisson_ratio = 0.3
+flow = {kind = "linear", yield_stress = "400 MPa", hardening = "1 GPa"}
+"""
+FLUID = """\
+[time]
+end = "1 us"
+[output]
+directory = "out"
+[fluid]
+lower = [0, 0, 0]
+upper = ["160 mm", "10 mm", "10 mm"]
+cells = [16, 1, 1]
+[[fluid.material]]
+name = "air"
+eos = {kind = "ideal_gas", gamma = 1.4}
+[[fluid.region]]
+shape = {kind = "everywhere"}
+material = "air"
+density = 1.225
+pressure = "101325 Pa"
+"""
+BURN = """\
+[[fluid.burn]]
+material = "TNT"
+points = [["80 mm", "5 mm", "5 mm"]]
+"""
+# a hexahedron whose top face is twisted by 180 degrees: no order of its nodes is right
+TWISTED_MSH = """\
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 1 1 1
+6 0 1 1
+7 0 0 1
+8 1 0 1
+$EndNodes
+$Elements
+1
+1 5 2 1 1 1 2 3 4 5 6 7 8
+$EndElements
+"""
+EMPTY_MSH = TWISTED_MSH.split("$Elements")[0] + "$Elements\n0\n$EndElements\n"
+BOX = 'mesh = {kind = "box", lower = [0, 0, 0], upper = ["10 mm", "10 mm", "10 mm"], cells = [2, 2, 2]}'
+
+
+def swap(text, old, new):
+    assert old in text, old
+    return text.replace(old, new)
+
+
+# name: program, case text, what the message must hold (besides file:line), other files
+CASES = {
+    "unknown key": ("csd", swap(SOLID, "poisson_ratio", "poisson_ration"), r"poisson_ratio", {}),
+    "unknown key, fluid": ("cfd", swap(FLUID, "density =", "densty ="), r"density", {}),
+    "wrong unit": ("csd", swap(SOLID, '"7.8 g/cm^3"', '"7.8 g/cm^2"'), r"density", {}),
+    "wrong unit, fluid": ("cfd", swap(FLUID, '"101325 Pa"', '"101325 m"'), r"pressure", {}),
+    "missing mesh file": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "nowhere.msh"}'), r"nowhere\.msh", {}),
+    "zero elements": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "empty.msh"}'), r"element|hexahedr", {"empty.msh": EMPTY_MSH}),
+    "zero elements, box": ("csd", swap(SOLID, "cells = [2, 2, 2]", "cells = [2, 0, 2]"), r"cells", {}),
+    "inverted element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "twisted.msh"}'), r"element 1|invert|negative|volume",
+                         {"twisted.msh": TWISTED_MSH}),
+    "nu = 0.5": ("csd", swap(SOLID, "poisson_ratio = 0.3", "poisson_ratio = 0.5"), r"poisson_ratio", {}),
+    "negative density": ("csd", swap(SOLID, '"7.8 g/cm^3"', '"-7.8 g/cm^3"'), r"density", {}),
+    "negative density, fluid": ("cfd", swap(FLUID, "density = 1.225", "density = -1.225"), r"density", {}),
+    "no explosive to burn": ("cfd", FLUID + BURN, r"TNT", {}),
+    "burn of a gas": ("cfd", FLUID + swap(BURN, '"TNT"', '"air"'), r"air|explosive", {}),
+    "broken TOML": ("csd", swap(SOLID, "[[solid.body]]", "[[solid.body]"), r".", {}),
+}
+
+
+def main():
+    wanted = sys.argv[2:] or list(CASES)
+    environment = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+    bad = 0
+    for name in wanted:
+        program, text, expected, files = CASES[name]
+        with tempfile.TemporaryDirectory() as folder:
+            for file, content in {"case.toml": text, **files}.items():
+                (pathlib.Path(folder) / file).write_text(content)
+            done = subprocess.run([BUILD / "bin" / program, "case.toml"], cwd=folder, env=environment, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, timeout=60)
+            stepped = any((pathlib.Path(folder) / "out").glob("*_summary.json"))
+        message = [line for line in done.stdout.split("\n") if re.search(r"\.(toml|msh):\d+", line)]
+        faults = []
+        if done.returncode != 2:
+            faults.append(f"exit code {done.returncode}, not 2")
+        if not message:
+            faults.append("no file:line in the message")
+        elif not re.search(expected, "\n".join(message), re.IGNORECASE):
+            faults.append(f"the message does not speak of {expected}")
+        if stepped:
+            faults.append("the run went on to a summary")
+        bad += bool(faults)
+        print(f"{'FAIL' if faults else 'ok  '} {name:24} exit {done.returncode}  {message[0].strip() if message else done.stdout.strip()[-300:]}"
+              + (f"\n     {'; '.join(faults)}" if faults else ""))
+    print(f"{len(wanted)} wrong inputs, {bad} not refused as they should be")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
