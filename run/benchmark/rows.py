@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rows of run/bench, by group."""
+import os
+import subprocess
+import sys
+
+from verification import fluid, reference, solid
+from verification.case import BUILD, ROOT, RunFailed, output, run
+
+sys.path.insert(0, str(ROOT / "run"))
+import fields  # noqa: E402
+
+CORES = len(os.sched_getaffinity(0))
+THREADS = (1, CORES) if CORES > 1 else (1,)
+MACHINE = {}
+
+
+def row(name, value, unit, threads=1, ranks=1):
+    return dict(name=name, value=float(value), unit=unit, threads=threads, ranks=ranks)
+
+
+def machine():
+    """FMA peak and triad."""
+    subprocess.run(["cmake", "--build", str(BUILD), "--target", "bench_machine"], check=True, stdout=subprocess.DEVNULL)
+    text = subprocess.run([str(BUILD / "bin" / "bench_machine")], check=True, stdout=subprocess.PIPE, text=True,
+                          env=os.environ | {"OMP_NUM_THREADS": str(CORES)}).stdout
+    MACHINE.update((key, float(value)) for key, value in (line.split() for line in text.splitlines()))
+    rows = [row("fma_peak", MACHINE["fma_peak_1"], "GF/s"), row("triad", MACHINE["triad_1"], "GB/s")]
+    if CORES > 1:
+        rows += [row("fma_peak", MACHINE["fma_peak_all"], "GF/s", CORES), row("triad", MACHINE["triad_all"], "GB/s", CORES)]
+    return rows
+
+
+def rate(directory, program, wanted):
+    """A rate of the summary, in millions a second."""
+    rates = fields.summary(directory, program).get("rates", {})
+    for name, value in rates.items():
+        if wanted in name:
+            return value / 1e6
+    raise RunFailed(f"{program}_summary.json has no rate of {wanted}: {', '.join(rates)}")
+
+
+# --- solid ------------------------------------------------------------------------------------------------------------------------------
+def solid_rows(name, text):
+    result = []
+    for threads in THREADS:
+        done = run(f"bench_{name}_{threads}", text, threads=threads, only="solid")
+        result.append(row(name, rate(done.directory, "solid", "element"), "M element-steps/s", threads))
+        last = done
+    return result, last
+
+
+BAR = ("[time]\nend = \"80 us\"\nmax_steps = {steps}\n" + output("0 s", "1 us")
+       + '[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = 8, along = 80}}\n'
+       + 'velocity = [0.0, 0.0, "-227 m/s"]\n' + solid.COPPER.replace("{", "{{").replace("}", "}}")
+       + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n'
+       + '[solid.filter]\nkind = "{filter}"\n')
+
+
+def taylor_j2():
+    """Taylor bar of S7, J2, no filter; and with the self-adjoint filter"""
+    result, _ = solid_rows("taylor_j2", BAR.format(steps=2000, filter="off"))
+    filtered, _ = solid_rows("taylor_j2_filter", BAR.format(steps=2000, filter="self_adjoint"))
+    return result + filtered
+
+
+def taylor_seconds():
+    """The whole bar to 80 us, wall seconds"""
+    result = []
+    for threads in THREADS:
+        done = run(f"bench_taylor_seconds_{threads}", BAR.format(steps=0, filter="off"), threads=threads, only="solid")
+        result.append(row("taylor_seconds", fields.summary(done.directory, "solid")["wall_seconds"], "s", threads))
+    return result
+
+
+def block(steps, material, velocity):
+    return (f"[time]\nend = \"1 s\"\nmax_steps = {steps}\n" + output("0 s", "1 s")
+            + '[[solid.body]]\nname = "block"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["80 mm", "80 mm", "80 mm"], cells = [80, 80, 80]}\n'
+            + f"velocity = {velocity}\n" + material
+            + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n')
+
+
+def block_elastic():
+    """A block of 512,000 elements, elastic"""
+    elastic = 'material = {kind = "neo_hooke", density = "8930 kg/m^3", young_modulus = "117 GPa", poisson_ratio = 0.35}\n'
+    result, last = solid_rows("block_elastic", block(60, elastic, [0.0, 0.0, -1.0]))
+    return result
+
+
+def block_j2():
+    """The same block, J2; bytes an element"""
+    result, last = solid_rows("block_j2", block(60, solid.COPPER, [0.0, 0.0, -100.0]))
+    summary = fields.summary(last.directory, "solid")
+    return result + [row("bytes_per_element", summary["peak_memory_bytes"] / 512000, "B (whole process)", THREADS[-1])]
+
+
+# --- fluid ------------------------------------------------------------------------------------------------------------------------------
+def cube(n, steps, materials, regions):
+    return (f"[time]\nend = \"1 s\"\nmax_steps = {steps}\n" + output("0 s", "1 s")
+            + f"[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [{n}, {n}, {n}]\n" + materials + regions)
+
+
+def fluid_rows(name, text):
+    return [row(name, rate(run(f"bench_{name}_{threads}", text, threads=threads, only="fluid").directory, "fluid", "cell"), "M cell-updates/s", threads)
+            for threads in THREADS]
+
+
+def busy(name, density):
+    """Something going on in every block: a small random-like pattern of boxes in motion."""
+    return "".join(fluid.region(f'{{kind = "box", lower = [{x!r}, {y!r}, {z!r}], upper = [{x + .25!r}, {y + .25!r}, {z + .25!r}]}}', name, density,
+                                1e5 * (1 + 0.4 * ((i * 7 + 3) % 5)), [30.0 * ((i * 5) % 3 - 1), 20.0 * ((i * 3) % 4 - 2), 10.0 * (i % 3)])
+                   for i, (x, y, z) in enumerate((x / 4, y / 4, z / 4) for x in range(4) for y in range(4) for z in range(4)))
+
+
+def air_64():
+    """Air, 64^3, every block busy"""
+    return fluid_rows("air_64", cube(64, 200, fluid.material("air", reference.GAS), busy("air", 1.2)))
+
+
+def air_128():
+    """Air, 128^3, every block busy"""
+    return fluid_rows("air_128", cube(128, 40, fluid.material("air", reference.GAS), busy("air", 1.2)))
+
+
+def jwl_air_64():
+    """Products and air side by side in every block, 64^3"""
+    tnt = reference.JWL_SETS["TNT"]
+    text = fluid.material("TNT", tnt) + fluid.material("air", reference.GAS)
+    sheets = fluid.region('{kind = "everywhere"}', "air", 1.2, 1e5)
+    for k in range(16):
+        sheets += fluid.region(f'{{kind = "box", lower = [-1.0, -1.0, {(k + .25) / 16!r}], upper = [2.0, 2.0, {(k + .75) / 16!r}]}}', "TNT", 50.0, 1e5,
+                               [100.0, 50.0 * (k % 3 - 1), 80.0 * (k % 2)])
+    return fluid_rows("jwl_air_64", cube(64, 100, text, sheets))
+
+
+def quiescent_share():
+    """Cost of a block at rest over a busy block's"""
+    air = fluid.material("air", reference.GAS)
+    rest = run("bench_rest", cube(128, 200, air, fluid.region('{kind = "everywhere"}', "air", 1.2, 1e5)), threads=1, only="fluid")
+    busy_run = run("bench_air_64_1", cube(64, 100, air, busy("air", 1.2)), threads=1, only="fluid")
+
+    def per_cell_step(result, cells):
+        summary = fields.summary(result.directory, "fluid")
+        return step_seconds(summary) / summary["steps"] / cells
+    return [row("quiescent_share", per_cell_step(rest, 128 ** 3) / per_cell_step(busy_run, 64 ** 3), "of a busy block")]
+
+
+def step_seconds(summary):
+    """Seconds of the timer called "step", wherever it stands."""
+    def walk(timers):
+        for name, timer in timers.items():
+            if name == "step":
+                return timer["seconds"]
+            inside = walk(timer.get("inside", {}))
+            if inside is not None:
+                return inside
+        return None
+    seconds = walk(summary["timers"])
+    return seconds if seconds is not None else summary["wall_seconds"]
+
+
+# --- wall -------------------------------------------------------------------------------------------------------------------------------
+def moving_sphere_overhead():
+    """A sphere that moves through 64^3 busy cells: extra time over no body"""
+    air = fluid.material("air", reference.GAS)
+    base = cube(64, 100, air, busy("air", 1.2))
+    body = ('[[fluid.body]]\nname = "ball"\nshape = {kind = "sphere", centre = [0.5, 0.5, 0.5], radius = 0.2}\n'
+            'motion = {kind = "velocity", velocity = [30.0, 20.0, 10.0]}\n')
+    seconds = [step_seconds(fields.summary(run(f"bench_{name}", text, threads=1, only="fluid").directory, "fluid"))
+               for name, text in (("no_sphere", base), ("sphere", base + body))]
+    return [row("moving_sphere_overhead", seconds[1] / seconds[0] - 1, "of the run without it")]
+
+
+GROUPS = {"solid": [taylor_j2, taylor_seconds, block_elastic, block_j2], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
+          "wall": [moving_sphere_overhead], "coupling": [], "precision": []}
