@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/mesh/gmsh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "common/app/error.h"
+#include "csd/mesh/check.h"
+#include "csd/mesh/faces.h"
+#include "csd/mesh/gmsh_file.h"
+#include "csd/mesh/hex.h"
+#include "csd/mesh/tets.h"
+
+namespace bw::csd {
+
+namespace {
+
+constexpr int triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5;
+
+/// Numbers the nodes of volume elements in file order.
+class Points {
+ public:
+  explicit Points(const GmshFile& file) : file_(file) {
+    for (size_t i = 0; i < file.node_tag.size(); ++i)
+      if (!index_.try_emplace(file.node_tag[i], int32_t(i)).second)
+        throw InputError(fmt::format("{}: node {} is given twice", file.path, file.node_tag[i]));
+    number_.assign(file.x.size(), -1);
+    for (const GmshElement& e : file.elements)
+      if (gmsh_dimension(e.type) == 3)
+        for (int a = 0; a < gmsh_node_count(e.type); ++a) number_[size_t(index(e, a))] = 0;
+    for (size_t i = 0; i < number_.size(); ++i)
+      if (number_[i] == 0) {
+        number_[i] = int32_t(x.size());
+        x.push_back(file.x[i]);
+      }
+  }
+  /// -1: the node is in no volume element.
+  int32_t operator()(const GmshElement& e, int a) const { return number_[size_t(index(e, a))]; }
+  std::vector<Vec3> x;
+
+ private:
+  int32_t index(const GmshElement& e, int a) const {
+    const auto it = index_.find(e.nodes[size_t(a)]);
+    if (it == index_.end())
+      throw InputError(fmt::format("{}: element {} uses node {}, which is not in $Nodes", file_.at(e.offset), e.tag, e.nodes[size_t(a)]));
+    return it->second;
+  }
+  const GmshFile& file_;
+  std::unordered_map<int64_t, int32_t> index_;
+  std::vector<int32_t> number_;
+};
+
+using Quad = std::array<int32_t, 4>;
+Quad sorted(Quad q) {
+  std::sort(q.begin(), q.end());
+  return q;
+}
+
+/// Nodes of the points, edges and faces that lower-dimensional elements name; the quads of the faces.
+struct Named {
+  std::map<std::string, std::set<int32_t>> nodes;
+  std::map<Quad, std::set<std::string>> quads;
+};
+Named named_parts(const GmshFile& file, const Points& points, const TetSplit& split) {
+  Named named;
+  const auto add = [&](const std::string& name, const std::vector<int32_t>& nodes) {
+    auto& set = named.nodes[name];
+    for (const int32_t n : nodes)
+      if (n >= 0) set.insert(n);
+  };
+  for (const GmshElement& e : file.elements) {
+    const int dimension = gmsh_dimension(e.type);
+    if (dimension == 3 || e.physical.empty()) continue;
+    std::vector<int32_t> n;
+    for (int a = 0; a < gmsh_node_count(e.type); ++a) n.push_back(points(e, a));
+    const bool is_in_volume = std::all_of(n.begin(), n.end(), [](int32_t i) { return i >= 0; });
+    std::vector<Quad> quads;
+    if (e.type == quadrangle && is_in_volume) quads.push_back({n[0], n[1], n[2], n[3]});
+    if (e.type == triangle && is_in_volume)
+      for (const Quad& q : split.quads_of({n[0], n[1], n[2]}))
+        if (std::all_of(q.begin(), q.end(), [](int32_t i) { return i >= 0; })) quads.push_back(q);
+    if (dimension == 1 && is_in_volume)
+      if (const int32_t middle = split.middle_of(n[0], n[1]); middle >= 0) n.push_back(middle);
+    for (const int number : e.physical) {
+      const std::string name = file.group(dimension, number);
+      add(name, n);
+      for (const Quad& q : quads) {
+        add(name, {q.begin(), q.end()});
+        named.quads[sorted(q)].insert(name);
+      }
+    }
+  }
+  return named;
+}
+
+void add_face_sets(Mesh& mesh, const Named& named) {
+  for (const auto& [name, nodes] : named.nodes)
+    for (const int32_t n : nodes) mesh.node_sets[name].push_back(NodeId(n));
+  if (named.quads.empty()) return;
+  Mesh mended = mesh;  // the sides that the elements will have once check_mesh has put their node order right
+  mend_node_order(mended, "mesh");
+  for (const Face f : boundary_faces(mended)) {
+    const auto q = mended.nodes_of(f);
+    const auto it = named.quads.find(sorted({q[0], q[1], q[2], q[3]}));
+    if (it == named.quads.end()) continue;
+    for (const std::string& name : it->second) mesh.face_sets[name].push_back(f);
+  }
+}
+
+}  // namespace
+
+Mesh Gmsh::make() const {
+  const GmshFile raw = read_gmsh(file, place);
+  const Points points(raw);
+  if (points.x.empty()) throw InputError(file + ": no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
+  std::vector<std::array<int32_t, 4>> tets;
+  for (const GmshElement& e : raw.elements) {
+    if (e.type != tetrahedron) continue;
+    tets.push_back({points(e, 0), points(e, 1), points(e, 2), points(e, 3)});
+    const auto at = [&](int a) { return points.x[size_t(tets.back()[size_t(a)])]; };
+    if (triple(at(1) - at(0), at(2) - at(0), at(3) - at(0)) == 0)
+      throw InputError(fmt::format("{}: tetrahedron {} has no volume", raw.at(e.offset), e.tag));
+  }
+  const TetSplit split(points.x, tets);
+  Mesh mesh;
+  for (size_t n = 0; n < split.x.size(); ++n) {
+    mesh.X.push_back(split.x[n]);
+    mesh.node_gid.push_back(int64_t(n));
+    mesh.parent.push_back(NodeId());
+  }
+  size_t next = 0;  // hex of the split
+  for (const GmshElement& e : raw.elements) {
+    if (gmsh_dimension(e.type) != 3) continue;
+    for (int k = 0; k < (e.type == tetrahedron ? 4 : 1); ++k) {
+      std::array<NodeId, 8> h;
+      for (size_t a = 0; a < 8; ++a) h[a] = NodeId(e.type == hexahedron ? points(e, int(a)) : split.hexes[next][a]);
+      if (e.type == tetrahedron) ++next;
+      for (const int number : e.physical) mesh.elem_sets[raw.group(3, number)].push_back(ElemId(mesh.elem_count()));
+      mesh.elem_gid.push_back(mesh.elem_count());
+      mesh.hex.push_back(h);
+      mesh.body.push_back(0);
+    }
+    if (e.type == hexahedron && valid_node_order(corners(mesh.hex[ElemId(mesh.elem_count() - 1)], mesh.X)) < 0)
+      throw InputError(fmt::format("{}: hexahedron {} is inverted or has no volume", raw.at(e.offset), e.tag));
+  }
+  add_face_sets(mesh, named_parts(raw, points, split));
+  return mesh;
+}
+
+}  // namespace bw::csd
