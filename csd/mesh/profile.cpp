@@ -138,8 +138,8 @@ Profile CapsuleProfile::make() const {
 
 Profile Weapon::profile() const {
   const double radius = diameter / 2, tail = tail_diameter / 2, shoulder = length - nose_length;
-  const double tail_at_plug = tail + (radius - tail) * base_plug / tail_length;  // outer radius at the cavity's floor
-  Line outer{{0, 0}, {0, tail}, {tail_length, radius}}, inner{{base_plug, 0}, {base_plug, tail_at_plug - wall}, {tail_length, radius - wall}};
+  const double t = base_plug / tail_length, floor = tail - tail_wall + t * (radius - wall - tail + tail_wall);  // radius of the cavity's floor
+  Line outer{{0, 0}, {0, tail}, {tail_length, radius}}, inner{{base_plug, 0}, {base_plug, floor}, {tail_length, radius - wall}};
   append(outer, blunted_ogive(shoulder, radius, nose_length, nose_radius));
   append(inner, blunted_ogive(shoulder, radius - wall, nose_length - nose_plug, 0.5 * nose_radius));
   Profile profile{inner, outer, std::vector<bool>(inner.size(), false)};
@@ -150,7 +150,7 @@ Profile Weapon::profile() const {
 Mesh Weapon::make() const {
   const bool is_demo = size == "demo", is_paper = size == "paper";
   ShellCount count;
-  count.around = around > 0 ? around : is_demo ? 56 : is_paper ? 144 : 256;
+  count.around = around > 0 ? around : is_demo ? 56 : is_paper ? 136 : 232;
   count.through = through > 0 ? through : is_demo ? 2 : is_paper ? 3 : 4;
   Mesh mesh = loft(profile(), count);
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {

@@ -35,13 +35,13 @@ class MiddleLine {
     const double f = s_[i] > s_[i - 1] ? (s - s_[i - 1]) / (s_[i] - s_[i - 1]) : 0;
     return between(between(profile_.inner[i - 1], profile_.inner[i], f), between(profile_.outer[i - 1], profile_.outer[i], f), t);
   }
-  /// Where the disc over the pole ends: at a corner if one lies about there, else where the body is 0.7 of its full width.
+  /// Where the disc over the pole ends: at a corner if one lies about there, else where the body is 0.8 of its full width.
   double disc_end(bool at_upper) const {
     const size_t n = s_.size();
     const auto from_pole = [&](size_t i) { return at_upper ? length() - s_[n - 1 - i] : s_[i]; };
     const auto index = [&](size_t i) { return at_upper ? n - 1 - i : i; };
     size_t wide = 0;
-    while (middle_[index(wide)].r < 0.7 * widest_) ++wide;
+    while (middle_[index(wide)].r < 0.8 * widest_) ++wide;
     for (size_t i = 1; i + 1 < n && from_pole(i) <= 1.6 * from_pole(wide); ++i)
       if (profile_.is_mark[index(i)] && middle_[index(i)].r >= 0.2 * widest_) return from_pole(i);
     return from_pole(wide);
@@ -91,7 +91,8 @@ Skin make_skin(const MiddleLine& line, const ShellCount& count) {
   const int n = count.around, core = n / 8;
   const double h = count.element_size > 0 ? count.element_size : 2 * pi * line.widest() / n;
   const double low = line.disc_end(false), high = line.length() - line.disc_end(true);
-  const auto rings = [&](double reach) { return std::max(1, int(std::lround(reach / h)) - core); };
+  // at least a third as many rings as core cells: a core that nearly fills its disc has flat corners
+  const auto rings = [&](double reach) { return std::max((core + 2) / 3, int(std::lround(reach / h)) - core); };
   const Quads lower = quad_disc(core, rings(low)), upper = quad_disc(core, rings(line.length() - high));
   Skin skin;
   skin.add_disc(lower, 0, low, false);

@@ -116,24 +116,26 @@ struct ShellOfRevolution {
 /// cavity), wall (the rest).
 struct Weapon {
   std::string size = "demo";
-  double length = 1.5, diameter = 0.273, wall = 0.0115, nose_length = 0.5, nose_radius = 0.045, nose_plug = 0.05, tail_length = 0.28,
-         tail_diameter = 0.2, base_plug = 0.03;
+  double length = 1.5, diameter = 0.273, wall = 0.012, nose_length = 0.52, nose_radius = 0.045, nose_plug = 0.06, tail_length = 0.35,
+         tail_diameter = 0.21, tail_wall = 0.022, base_plug = 0.04;
   int around = 0, through = 0;
   static constexpr auto name = "weapon";
   template <class K> void describe(K& k) {
     k.choice("size", size, {"demo", "paper", "fine"}, "about 10 thousand, 100 thousand or 400 thousand elements");
     k.optional("length", length, dim::length, "from base to nose");
     k.optional("diameter", diameter, dim::length, "outer diameter of the cylinder");
-    k.optional("wall", wall, dim::length, "thickness of the cylinder's wall and the boat-tail");
+    k.optional("wall", wall, dim::length, "thickness of the cylinder's wall");
     k.optional("nose_length", nose_length, dim::length, "length of the blunted tangent ogive");
     k.optional("nose_radius", nose_radius, dim::length, "radius of the nose's sphere");
     k.optional("nose_plug", nose_plug, dim::length, "thickness of the solid nose along the axis");
     k.optional("tail_length", tail_length, dim::length, "length of the boat-tail");
     k.optional("tail_diameter", tail_diameter, dim::length, "outer diameter of the base");
+    k.optional("tail_wall", tail_wall, dim::length, "thickness of the boat-tail at the base; `wall` where it meets the cylinder");
     k.optional("base_plug", base_plug, dim::length, "thickness of the base");
     k.optional("around", around, "elements around, a multiple of 8; 0: by size");
     k.optional("through", through, "elements through the wall; 0: by size");
-    k.expect(wall > 0 && 2 * wall < tail_diameter && tail_diameter <= diameter, "tail_diameter", "between two walls and the diameter");
+    k.expect(wall > 0 && 2 * wall < diameter, "wall", "between 0 and half the diameter");
+    k.expect(tail_wall > 0 && 2 * tail_wall < tail_diameter && tail_diameter <= diameter, "tail_diameter", "between 2 tail_wall and the diameter");
     k.expect(nose_radius > 0 && 2 * nose_radius < diameter && nose_radius < nose_length, "nose_radius", "less than half the diameter and the nose");
     k.expect(base_plug > 0 && base_plug < tail_length, "base_plug", "between 0 and the tail's length");
     k.expect(nose_plug > 0 && nose_plug < 0.5 * nose_length, "nose_plug", "between 0 and half the nose's length");
