@@ -49,8 +49,8 @@ struct ChannelLimits {
 /// share().
 class Channel {
  public:
-  /// Takes over `inter`, the intercommunicator of the two sides. Program name: for messages to people.
-  Channel(const Comm& mine, MPI_Comm inter, Role role, const std::string& program, const ChannelLimits& limits);
+  /// Takes over `inter`, the intercommunicator of the two sides, and installs itself as the failure hook of guarded().
+  Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits);
   /// Ends the program with exit_left if the coupling is still open, unless an exception is on its way to be reported.
   ~Channel();
   Channel(const Channel&) = delete;
@@ -105,11 +105,6 @@ class Channel {
  private:
   struct State;
   std::shared_ptr<State> state_;
-  friend void report_failure(int code, const char* text);
 };
-
-/// For the outermost handler of exceptions: through the open channel if there is one, else by MPI_Abort if the job has
-/// other processes. Returns only if this process is alone in the job. Prints the text unless it returns.
-void report_failure(int code, const char* text);
 
 }  // namespace bw::coupling

@@ -32,15 +32,14 @@ class FluidSide {
   void send(const Loads& loads);
 
  private:
-  void say_hello(const Hello& hello);
-  void receive_surface(const StepBlock& step);
+  void receive_surface();
 
   Channel& channel_;
-  CouplingCase case_;
   double t_end_ = 0;
   Window window_;
   WetSurface surface_;
   StepBlock step_{};
+  Known known_;
   bool topology_changed_ = false;
 };
 

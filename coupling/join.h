@@ -2,7 +2,6 @@
 // How the programs of one mpirun find each other: each says its role, by name, over the world.
 #pragma once
 #include <memory>
-#include <string>
 
 #include "coupling/case.h"
 #include "coupling/channel.h"
@@ -16,7 +15,6 @@ struct Joined {
 
 /// Collective over the world, in any order of programs on the command line. Call it when the input has been read and
 /// checked: a program that dies before it joins is noticed (at once if it aborts, at case.join_limit if it hangs).
-/// program = name and version for messages, "csd".
-Joined join(const Session& session, Role role, const std::string& program, const CouplingCase& cs);
+Joined join(const Session& session, Role role, const CouplingCase& cs);
 
 }  // namespace bw::coupling

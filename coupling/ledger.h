@@ -33,11 +33,13 @@ struct LedgerRow {
   SolidTotals solid;
   FluidTotals fluid;
   Vec3 impulse_defect;       ///< N s, solid - (fluid + p_ref A dt)
+  Vec3 moment_defect;        ///< N m s, likewise
   double impulse_scale = 0;  ///< N s, sum |P A| dt
   double volume_gap = 0;     ///< m^3, solid's surface beyond the fluid's wall at t1 (fluid_first), before it is repaid
   int64_t born = 0, dead = 0;                     ///< faces that came and went with this window's surface
   double area = 0;                                ///< m^2
-  double work_fluid_sum = 0, work_solid_sum = 0;  ///< J since the start, both of the pressure beyond p_ref
+  double work_fluid = 0;                          ///< J, the fluid's work beyond the reference pressure
+  double work_fluid_sum = 0, work_solid_sum = 0;  ///< J since the start, beyond the reference pressure
 };
 
 class Ledger {
@@ -55,11 +57,13 @@ class Ledger {
 
  private:
   double p_ref_, tolerance_;
-  WetSurface surface_;
-  double dt_ = 0;
-  Vec3 area_sum_;  // m^2, the surface's own area vectors
-  std::vector<int64_t> face_id_;  // of the window before
   bool first_ = true;
+  int64_t topo_version_ = -1;
+  std::vector<std::array<int32_t, 4>> quads_;
+  std::vector<int64_t> face_id_;               // sorted
+  std::vector<Vec3> area_;                     // [n_faces] m^2, at the window's start
+  std::vector<Vec3> x_wall_;                   // [n_nodes] m, where the announced velocity takes the fluid's wall
+  Vec3 reference_impulse_, reference_moment_;  // of p_ref A dt
   LedgerRow row_;
 };
 

@@ -116,14 +116,23 @@ Verdict check_agreement(const HelloBlock& mine, const HelloBlock& other);
 std::string overlap_warning(const HelloBlock& solid, const HelloBlock& fluid);
 
 StepBlock pack(const Window& window, const WetSurface& surface);
-Verdict check_step(const StepBlock& step, const Window& before, int64_t known_topo_version, uint64_t known_hash);
+/// What the fluid knows before a STEP.
+struct Known {
+  int64_t window = -1;        ///< last one
+  double t = 0;               ///< s, end of that window
+  int64_t topo_version = -1;  ///< of the connectivity in hand
+  uint64_t hash = 0;
+  int64_t n_nodes = 0, n_faces = 0;
+};
+Verdict check_step(const StepBlock& step, const Known& known);
 /// Indices within range, ids distinct, finite numbers: names array and entry.
 Verdict check_surface(const WetSurface& surface);
-/// Only what changes in every window.
+/// The part of it that changes in every window: x and v, finite.
 Verdict check_motion(const WetSurface& surface);
 uint64_t connectivity_hash(const WetSurface& surface);
 
 LoadBlock pack(const Loads& loads, const StepBlock& asked);
+FluidTotals totals_of(const LoadBlock& load);
 Verdict check_load(const LoadBlock& load, const StepBlock& asked);
 Verdict check_values(const Loads& loads, size_t n_faces);
 

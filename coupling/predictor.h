@@ -18,34 +18,32 @@ class WallPredictor {
  public:
   explicit WallPredictor(Scheme scheme) : scheme_(scheme) {}
 
-  /// Velocities [n_nodes] of the walls for a window expected to last dt_next; surface.v is v^n. Does not change the
-  /// history.
-  std::vector<Vec3> predict(const WetSurface& surface, double dt_next) const {
+  /// Velocities [n_nodes] of the walls for a window expected to last dt_next; surface.v is v^n.
+  std::vector<Vec3> predict(const WetSurface& surface, double dt_next) {
     std::vector<Vec3> v = surface.v;
-    if (scheme_ == Scheme::box1 || dt_last_ <= 0) return v;
     // a sliver of a window before an output time must not blow the difference up
-    const double half_ratio = 0.5 * std::clamp(dt_next / dt_last_, 0.0, 2.0);
-    const bool same = surface.topo_version == topo_version_ && surface.v.size() == v_old_.size();
-    std::unordered_map<int64_t, int64_t> parent;
-    if (!same)
-      for (size_t i = 0; i < surface.node_id.size(); ++i) parent[surface.node_id[i]] = surface.node_parent[i];
-    for (size_t i = 0; i < v.size(); ++i) {
-      const int64_t old = same ? int64_t(i) : find(surface.node_id[i], parent);
-      if (old >= 0) v[i] += half_ratio * (surface.v[i] - v_old_[size_t(old)]);
+    const double half_ratio = dt_last_ > 0 ? 0.5 * std::clamp(dt_next / dt_last_, 0.0, 2.0) : 0;
+    const bool same = surface.topo_version == topo_version_ && v.size() == v_last_.size();
+    if (scheme_ == Scheme::fluid_first && half_ratio > 0) {
+      std::unordered_map<int64_t, int64_t> parent;
+      if (!same)
+        for (size_t i = 0; i < v.size(); ++i) parent[surface.node_id[i]] = surface.node_parent[i];
+      for (size_t i = 0; i < v.size(); ++i) {
+        const int64_t old = same ? int64_t(i) : find(surface.node_id[i], parent);
+        if (old >= 0) v[i] += half_ratio * (surface.v[i] - v_last_[size_t(old)]);
+      }
     }
+    if (!same) {
+      index_.clear();
+      for (size_t i = 0; i < v.size(); ++i) index_[surface.node_id[i]] = int64_t(i);
+      topo_version_ = surface.topo_version;
+    }
+    v_last_ = surface.v;
     return v;
   }
 
-  /// The window that starts with this surface lasted dt: its v^n becomes v^(n-1).
-  void remember(const WetSurface& surface, double dt) {
-    if (surface.topo_version != topo_version_ || index_.size() != surface.node_id.size()) {
-      index_.clear();
-      for (size_t i = 0; i < surface.node_id.size(); ++i) index_[surface.node_id[i]] = int64_t(i);
-      topo_version_ = surface.topo_version;
-    }
-    v_old_ = surface.v;
-    dt_last_ = dt;
-  }
+  /// The window that started with the surface of the last predict() lasted dt.
+  void window_lasted(double dt) { dt_last_ = dt; }
 
  private:
   /// Place of the node, or of its nearest ancestor, in the last surface; -1: none.
@@ -62,8 +60,8 @@ class WallPredictor {
 
   Scheme scheme_;
   int64_t topo_version_ = -1;
-  std::unordered_map<int64_t, int64_t> index_;  // node_id -> place in v_old_
-  std::vector<Vec3> v_old_;                     // v^(n-1)
+  std::unordered_map<int64_t, int64_t> index_;  // node_id -> place in v_last_
+  std::vector<Vec3> v_last_;                    // of the last predict()
   double dt_last_ = 0;
 };
 

@@ -22,6 +22,8 @@
 
 namespace bw::coupling {
 
+class History;
+
 class SolidSide {
  public:
   /// Says HELLO and checks the answer. Rows go to history_path (leader; empty: none).
@@ -48,8 +50,6 @@ class SolidSide {
   void finish(const std::string& reason = "finished");
 
  private:
-  void say_hello(const Hello& hello);
-
   Channel& channel_;
   CouplingCase case_;
   double t_end_ = 0;
@@ -57,14 +57,14 @@ class SolidSide {
   int64_t next_window_ = 0;
   WetSurface sent_;  // as on the wire: v is predicted
   StepBlock step_{};
-  int64_t topo_sent_ = -1;
+  std::vector<int64_t> ids_;  // as on the wire, until they are under way
+  std::vector<int32_t> faces_;
   Loads loads_;
   WallPredictor predictor_;
-  WetSurface surface_now_;  // v^n, for the predictor's memory
   Ledger ledger_;
   double dt_usual_ = 0;  // last window that was not clipped
-  double waited_before_ = 0;
-  struct History;  // the CSV file
+  double t_last_ = 0;    // s, where the books are closed
+  double waited_ = 0;    // s, for the last LOAD
   std::unique_ptr<History> history_;
 };
 

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/channel.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <thread>
+
+#include "common/app/guarded.h"
+#include "common/app/log.h"
+#include "coupling/messages.h"
+#include "coupling/notice.h"
+
+namespace bw::coupling {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Sleeps longer the longer one waits: busy waiting would steal the other program's cores.
+class Patience {
+ public:
+  void rest() const {
+    const double waited = seconds_since(start_);
+    if (waited < 50e-6) return;
+    std::this_thread::sleep_for(std::chrono::microseconds(waited < 20e-3 ? 50 : 500));
+  }
+  double seconds() const { return seconds_since(start_); }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+};
+
+const char* word_of(int tag) {
+  switch (tag) {
+    case tag_hello:
+      return "HELLO";
+    case tag_step:
+      return "STEP";
+    case tag_load:
+      return "LOAD";
+    case tag_bye:
+      return "BYE";
+    default:
+      return tag >= tag_x && tag <= tag_faces ? "SURFACE" : "LOAD";
+  }
+}
+
+std::atomic<bool> ending{false};  // a failure is being told: what happens meanwhile changes nothing
+
+}  // namespace
+
+const char* name_of(Role role) { return role == Role::solid ? "solid" : "fluid"; }
+
+struct Channel::State {
+  Comm mine;
+  MPI_Comm inter = MPI_COMM_NULL;
+  Role role = Role::solid;
+  std::string peer = "the other program";
+  ChannelLimits limits;
+  int64_t window = -1;
+  double t = 0, waited = 0;
+  bool open = true;
+  std::vector<MPI_Request> started;
+
+  static std::shared_ptr<State> active;  // survives the Channel while an exception is on its way to be reported
+
+  std::string place() const { return window < 0 ? "" : fmt::format(" in window {} at t = {:.6g} s", window, t); }
+  /// said: the text is on the screen already
+  [[noreturn]] void end(int code, const std::string& text, bool said = false);
+  [[noreturn]] void end_with_peer(int source);
+  void look_for_failure();
+  static void at_exit();
+  [[noreturn]] static void at_terminate();
+};
+
+std::shared_ptr<Channel::State> Channel::State::active;
+
+// --- failing
+// ------------------------------------------------------------------------------------------------------------------
+
+void Channel::State::end(int code, const std::string& text, bool said) {
+  if (code == 0) code = exit_unspecified;
+  if (ending.exchange(true)) _exit(code);  // failed while failing
+  quiet_notice();
+  if (!said) error_line(fmt::format("FAILED{}: {} [exit code {}]", place(), text, code));
+  std::fflush(nullptr);
+  int main_thread = 0;
+  if (MPI_Is_thread_main(&main_thread) != MPI_SUCCESS || !main_thread) _exit(code);  // mpirun then ends the others
+  if (open) {
+    open = false;
+    FailBlock fail{};
+    fail.code = code;
+    fail.rank = mine.rank();
+    fail.window = window;
+    fail.t = t;
+    std::snprintf(fail.text, sizeof fail.text, "%s", text.c_str());
+    MPI_Request request;
+    MPI_Isend(&fail, sizeof fail, MPI_BYTE, 0, tag_fail, inter, &request);
+    const Patience patience;
+    int heard = 0;
+    while (!heard && patience.seconds() < limits.acknowledge) {
+      MPI_Iprobe(0, tag_ack, inter, &heard, MPI_STATUS_IGNORE);
+      if (!heard) MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &heard, MPI_STATUS_IGNORE);  // a crossing FAIL is as good
+      if (!heard) patience.rest();
+    }
+    if (!heard) error_line(fmt::format("{} did not answer within {:g} s; ending it", peer, limits.acknowledge));
+  }
+  MPI_Abort(MPI_COMM_WORLD, code);
+  _exit(code);
+}
+
+void Channel::State::end_with_peer(int source) {
+  ending = true;
+  open = false;
+  FailBlock fail{};
+  MPI_Recv(&fail, sizeof fail, MPI_BYTE, source, tag_fail, inter, MPI_STATUS_IGNORE);
+  fail.text[sizeof fail.text - 1] = 0;
+  quiet_notice();
+  error_line(fmt::format("{} (rank {}) FAILED{}: {}; ending too [exit code {}]", peer, fail.rank,
+                         fail.window < 0 ? "" : fmt::format(" in window {} at t = {:.6g} s", fail.window, fail.t),
+                         fail.text, fail.code));
+  std::fflush(nullptr);
+  MPI_Request request;
+  MPI_Isend(nullptr, 0, MPI_BYTE, source, tag_ack, inter, &request);
+  const Patience patience;  // the one that failed ends the job; if it cannot, this one does
+  int sent = 0;
+  while (patience.seconds() < limits.acknowledge) {
+    if (!sent) MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
+    patience.rest();
+  }
+  const int code = fail.code == 0 ? int(exit_unspecified) : fail.code;
+  MPI_Abort(MPI_COMM_WORLD, code);
+  _exit(code);
+}
+
+void Channel::State::look_for_failure() {
+  if (!open || ending) return;
+  int there = 0;
+  MPI_Status status;
+  check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &there, &status), "MPI_Iprobe");
+  if (there) end_with_peer(status.MPI_SOURCE);
+}
+
+void Channel::State::at_exit() {
+  if (active && active->open && !ending)
+    active->end(exit_left, "the program called exit() while the coupling was open");
+}
+
+void Channel::State::at_terminate() {
+  std::string text = "terminate() was called";
+  if (const auto exception = std::current_exception()) {
+    text = "uncaught exception";
+    try {
+      std::rethrow_exception(exception);
+    } catch (const std::exception& e) {
+      text = fmt::format("uncaught exception: {}", e.what());
+    } catch (...) {
+    }
+  }
+  if (active) active->end(exit_terminate, text);
+  std::abort();
+}
+
+// --- life
+// -----------------------------------------------------------------------------------------------------------------------
+
+Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits)
+    : state_(std::make_shared<State>()) {
+  state_->mine = mine;
+  state_->inter = inter;
+  state_->role = role;
+  state_->limits = limits;
+  check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  State::active = state_;
+  std::set_terminate(State::at_terminate);
+  static const int once = std::atexit(State::at_exit);
+  (void)once;
+  set_failure_hook([](int code, const std::string& text) {
+    State::active->end(code, text.empty() ? "the program ended with an error code" : text, !text.empty());
+  });
+}
+
+Channel::~Channel() {
+  if (state_->open && std::uncaught_exceptions() == 0)
+    state_->end(exit_left, "the program left its run while the coupling was open");
+}
+
+const Comm& Channel::mine() const { return state_->mine; }
+Role Channel::role() const { return state_->role; }
+const std::string& Channel::peer() const { return state_->peer; }
+double Channel::seconds_waited() const { return state_->waited; }
+
+void Channel::set_peer(const std::string& name, double silence_limit) {
+  state_->peer = name;
+  state_->limits.silence = silence_limit;
+}
+
+void Channel::set_place(int64_t window, double t) {
+  state_->window = window;
+  state_->t = t;
+  if (leader()) set_notice(state_->place());
+}
+
+void Channel::close() {
+  state_->open = false;
+  quiet_notice();
+}
+
+// --- messages
+// -------------------------------------------------------------------------------------------------------------------
+
+void Channel::send(int tag, const void* data, size_t bytes) {
+  if (bytes > size_t(INT32_MAX))
+    fail(exit_malformed, fmt::format("a {} message of {} bytes is too long", word_of(tag), bytes));
+  MPI_Request request;
+  check_mpi(MPI_Isend(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, &request), "MPI_Isend");
+  state_->started.push_back(request);
+}
+
+void Channel::flush() {
+  const Patience patience;
+  for (;;) {
+    int all = 0;
+    check_mpi(MPI_Testall(int(state_->started.size()), state_->started.data(), &all, MPI_STATUSES_IGNORE),
+              "MPI_Testall");
+    if (all) break;
+    state_->look_for_failure();
+    if (patience.seconds() > state_->limits.silence)
+      fail(exit_silence, fmt::format("{} has not taken a message for {:g} s", peer(), state_->limits.silence));
+    patience.rest();
+  }
+  state_->started.clear();
+}
+
+int Channel::wait(std::initializer_list<int> tags) {
+  const Patience patience;
+  double next_line = state_->limits.heartbeat;
+  bool may_bye = false;
+  for (const int tag : tags) may_bye |= tag == tag_bye;
+  const auto probe = [&](int tag) {
+    int there = 0;
+    check_mpi(MPI_Iprobe(0, tag, state_->inter, &there, MPI_STATUS_IGNORE), "MPI_Iprobe");
+    return there != 0;
+  };
+  for (;;) {
+    for (const int tag : tags)
+      if (probe(tag)) {
+        state_->waited += patience.seconds();
+        return tag;
+      }
+    state_->look_for_failure();
+    const char* word = word_of(*tags.begin());
+    if (!may_bye && probe(tag_bye)) {
+      ByeBlock bye{};
+      receive(tag_bye, "BYE", &bye, sizeof bye);
+      bye.text[sizeof bye.text - 1] = 0;
+      fail(exit_bye, fmt::format("{} said BYE ({}) while {} was expected", peer(), bye.text, word));
+    }
+    const double waited = patience.seconds();
+    if (waited > state_->limits.silence)
+      fail(exit_silence, fmt::format("no {} from {} for {:g} s (silence limit)", word, peer(), state_->limits.silence));
+    if (waited > next_line) {
+      say("waiting for {} from {} since {:.0f} s{}", word, peer(), waited, state_->place());
+      next_line += state_->limits.heartbeat;
+    }
+    patience.rest();
+  }
+}
+
+size_t Channel::size_of(int tag) const {
+  MPI_Status status;
+  int bytes = 0;
+  check_mpi(MPI_Probe(0, tag, state_->inter, &status), "MPI_Probe");
+  check_mpi(MPI_Get_count(&status, MPI_BYTE, &bytes), "MPI_Get_count");
+  return size_t(bytes);
+}
+
+void Channel::receive(int tag, const char* message, void* data, size_t bytes) {
+  wait({tag});  // the parts of one exchange are under way together: this one is there, or will be at once
+  const size_t arrived = size_of(tag);
+  if (arrived != bytes)
+    fail(exit_malformed, fmt::format("{} from {} has {} bytes, {} were expected", message, peer(), arrived, bytes));
+  check_mpi(MPI_Recv(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, MPI_STATUS_IGNORE), "MPI_Recv");
+}
+
+void Channel::poll() { state_->look_for_failure(); }
+
+void Channel::share(void* data, size_t bytes) {
+  if (mine().size() == 1 || bytes == 0) return;
+  MPI_Request request;
+  check_mpi(MPI_Ibcast(data, int(bytes), MPI_BYTE, 0, mine().raw(), &request), "MPI_Ibcast");
+  const Patience patience;
+  for (int done = 0; !done;) {
+    check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+    if (!done) patience.rest();
+  }
+}
+
+void Channel::fail(int code, const std::string& text) { state_->end(code, text); }
+
+}  // namespace bw::coupling

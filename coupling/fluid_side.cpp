@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/fluid_side.h"
+
+#include <fmt/format.h>
+
+#include "coupling/handshake.h"
+
+namespace bw::coupling {
+
+FluidSide::FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hello) : channel_(channel) {
+  t_end_ = shake_hands(channel, cs, hello);
+  known_.t = hello.t0;
+}
+
+bool FluidSide::receive() {
+  int32_t goes_on = 1;
+  if (channel_.leader()) {
+    if (channel_.wait({tag_step, tag_bye}) == tag_bye) {
+      ByeBlock bye{};
+      channel_.receive(tag_bye, "BYE", &bye, sizeof bye);
+      bye = ByeBlock{};
+      channel_.send(tag_bye, &bye, sizeof bye);
+      channel_.flush();
+      goes_on = 0;
+    } else {
+      channel_.receive(tag_step, "STEP", &step_, sizeof step_);
+      if (const Verdict fault = check_step(step_, known_)) channel_.fail(fault->code, fault->text);
+    }
+  }
+  channel_.share(&goes_on, sizeof goes_on);
+  if (!goes_on) {
+    channel_.mine().barrier();
+    channel_.close();
+    return false;
+  }
+  channel_.share(&step_, sizeof step_);
+  window_ = {.index = step_.window,
+             .t0 = step_.t0,
+             .t1_max = step_.t1_max,
+             .dt_stable = step_.dt_stable,
+             .last = bool(step_.flags & step_last),
+             .mean_pressure = bool(step_.flags & step_mean_pressure)};
+  channel_.set_place(window_.index, window_.t0);
+  receive_surface();
+  return true;
+}
+
+void FluidSide::receive_surface() {
+  const size_t nodes = size_t(step_.n_nodes), faces = size_t(step_.n_faces);
+  topology_changed_ = step_.flags & step_connectivity;
+  surface_.topo_version = step_.topo_version;
+  surface_.x.resize(nodes);
+  surface_.v.resize(nodes);
+  if (channel_.leader()) {
+    channel_.receive(tag_x, "SURFACE: x", surface_.x.data(), nodes * sizeof(Vec3));
+    channel_.receive(tag_v, "SURFACE: v", surface_.v.data(), nodes * sizeof(Vec3));
+  }
+  channel_.share(surface_.x);
+  channel_.share(surface_.v);
+  if (topology_changed_) {
+    std::vector<int64_t> ids(2 * nodes + faces);
+    std::vector<int32_t> values(2 * faces);
+    surface_.quads.resize(faces);
+    if (channel_.leader()) {
+      channel_.receive(tag_quads, "SURFACE: quads", surface_.quads.data(), faces * sizeof surface_.quads[0]);
+      channel_.receive(tag_ids, "SURFACE: ids", ids.data(), ids.size() * sizeof ids[0]);
+      channel_.receive(tag_faces, "SURFACE: body and flags", values.data(), values.size() * sizeof values[0]);
+    }
+    channel_.share(surface_.quads);
+    channel_.share(ids);
+    channel_.share(values);
+    const auto parents = ids.begin() + int64_t(nodes), face_ids = parents + int64_t(nodes);
+    surface_.node_id.assign(ids.begin(), parents);
+    surface_.node_parent.assign(parents, face_ids);
+    surface_.face_id.assign(face_ids, ids.end());
+    const auto flags = values.begin() + int64_t(faces);
+    surface_.body.assign(values.begin(), flags);
+    surface_.flags.assign(flags, values.end());
+  }
+  if (channel_.leader()) {
+    if (const Verdict fault = topology_changed_ ? check_surface(surface_) : check_motion(surface_))
+      channel_.fail(fault->code, fault->text);
+    if (topology_changed_ && connectivity_hash(surface_) != step_.hash)
+      channel_.fail(exit_malformed, "SURFACE: the hash of the connectivity is not that of STEP");
+  }
+  known_.window = step_.window;
+  known_.topo_version = step_.topo_version;
+  known_.hash = step_.hash;
+  known_.n_nodes = step_.n_nodes;
+  known_.n_faces = step_.n_faces;
+}
+
+void FluidSide::send(const Loads& loads) {
+  known_.t = loads.t1;
+  if (!channel_.leader()) return;
+  const LoadBlock load = pack(loads, step_);
+  if (const Verdict fault = check_load(load, step_)) channel_.fail(fault->code, fault->text);
+  if (const Verdict fault = check_values(loads, surface_.quads.size())) channel_.fail(fault->code, fault->text);
+  channel_.send(tag_load, &load, sizeof load);
+  channel_.send(tag_p, std::span<const double>(loads.p));
+  if (!loads.traction.empty()) channel_.send(tag_traction, std::span<const Vec3>(loads.traction));
+  if (!loads.impedance.empty()) channel_.send(tag_impedance, std::span<const double>(loads.impedance));
+  channel_.flush();
+  channel_.set_place(window_.index, loads.t1);
+}
+
+}  // namespace bw::coupling

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "coupling/channel.h"
+#include "coupling/messages.h"
+
+namespace bw::coupling {
+
+/// HELLO both ways, checked; the same end time on all ranks of both sides: the smaller of the two [s]. Ends the run if
+/// the two programs do not fit together.
+double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello);
+
+}  // namespace bw::coupling

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/ledger.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/app/error.h"
+
+namespace bw::coupling {
+namespace {
+
+/// Entries of the sorted list a that the sorted list b lacks.
+int64_t missing_in(const std::vector<int64_t>& a, const std::vector<int64_t>& b) {
+  int64_t count = 0;
+  for (const int64_t id : a) count += !std::binary_search(b.begin(), b.end(), id);
+  return count;
+}
+
+}  // namespace
+
+SolidTotals& SolidTotals::operator+=(const SolidTotals& b) {
+  impulse += b.impulse;
+  moment += b.moment;
+  work += b.work;
+  substeps += b.substeps;
+  return *this;
+}
+
+SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_window, std::span<const Vec3> x_before,
+                           std::span<const Vec3> x_after, double h) {
+  SolidTotals totals;
+  totals.substeps = 1;
+  for (size_t i = 0; i < f.size(); ++i) {
+    const Vec3 impulse = h * f[i];
+    totals.impulse += impulse;
+    totals.moment += cross(x_window[i], impulse);
+    totals.work += dot(f[i], x_after[i] - x_before[i]);
+  }
+  return totals;
+}
+
+void Ledger::open(const Window& window, const WetSurface& surface, const Loads& loads) {
+  const double work_fluid_sum = row_.work_fluid_sum, work_solid_sum = row_.work_solid_sum;
+  row_ = LedgerRow{};  // the sums go on
+  row_.work_fluid_sum = work_fluid_sum;
+  row_.work_solid_sum = work_solid_sum;
+  row_.window = window.index;
+  row_.t0 = window.t0;
+  row_.t1 = loads.t1;
+  row_.fluid = loads.totals;
+  if (first_ || surface.topo_version != topo_version_) {
+    quads_ = surface.quads;
+    std::vector<int64_t> face_id = surface.face_id;
+    std::sort(face_id.begin(), face_id.end());
+    if (!first_) {
+      row_.born = missing_in(face_id, face_id_);
+      row_.dead = missing_in(face_id_, face_id);
+    }
+    face_id_ = std::move(face_id);
+    topo_version_ = surface.topo_version;
+    first_ = false;
+  }
+  const double dt = loads.t1 - window.t0;
+  area_.resize(quads_.size());
+  Vec3 area_sum, moment_sum;
+  for (size_t f = 0; f < quads_.size(); ++f) {
+    area_[f] = area_vector(surface.x, quads_[f]);
+    area_sum += area_[f];
+    moment_sum += cross(face_mean(surface.x, quads_[f]), area_[f]);
+    row_.area += norm(area_[f]);
+    row_.impulse_scale += std::abs(loads.p[f]) * norm(area_[f]) * dt;
+    if (!loads.traction.empty()) row_.impulse_scale += norm(loads.traction[f]) * norm(area_[f]) * dt;
+  }
+  reference_impulse_ = (p_ref_ * dt) * area_sum;
+  reference_moment_ = (p_ref_ * dt) * moment_sum;
+  x_wall_.resize(surface.x.size());
+  for (size_t i = 0; i < x_wall_.size(); ++i) x_wall_[i] = surface.x[i] + dt * surface.v[i];
+}
+
+std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
+  row_.impulse_defect = row_.solid.impulse - (row_.fluid.impulse + reference_impulse_);
+  row_.moment_defect = row_.solid.moment - (row_.fluid.moment + reference_moment_);
+  row_.work_fluid = row_.fluid.work + p_ref_ * row_.fluid.swept;
+  row_.work_fluid_sum += row_.work_fluid;
+  row_.work_solid_sum += row_.solid.work;
+  if (!x_end.empty()) {
+    BW_CHECK(x_end.size() == x_wall_.size());
+    std::vector<Vec3> gap(x_wall_.size());
+    for (size_t i = 0; i < gap.size(); ++i) gap[i] = x_end[i] - x_wall_[i];
+    for (size_t f = 0; f < quads_.size(); ++f) row_.volume_gap += dot(area_[f], face_mean(gap, quads_[f]));
+  }
+  const double defect = norm(row_.impulse_defect);
+  if (defect <= tolerance_ * row_.impulse_scale) return {};
+  return fmt::format(
+      "ledger: in window {} the solid received an impulse of ({:.15g}, {:.15g}, {:.15g}) N s, the fluid gave ({:.15g}, "
+      "{:.15g}, "
+      "{:.15g}) N s beyond the reference pressure; the defect {:.3g} N s is more than {:g} of sum |P A| dt = {:.6g} N "
+      "s",
+      row_.window, row_.solid.impulse.x, row_.solid.impulse.y, row_.solid.impulse.z,
+      row_.fluid.impulse.x + reference_impulse_.x, row_.fluid.impulse.y + reference_impulse_.y,
+      row_.fluid.impulse.z + reference_impulse_.z, defect, tolerance_, row_.impulse_scale);
+}
+
+}  // namespace bw::coupling

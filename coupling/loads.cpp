@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/loads.h"
+
+#include "common/app/error.h"
+
+namespace bw::coupling {
+
+std::vector<Vec3> face_forces(const WetSurface& surface, const Loads& loads, double p_ref) {
+  const size_t n = surface.quads.size();
+  BW_CHECK(loads.p.size() == n && (loads.traction.empty() || loads.traction.size() == n));
+  std::vector<Vec3> force(n);
+  for (size_t f = 0; f < n; ++f) {
+    const Vec3 area = area_vector(surface.x, surface.quads[f]);
+    force[f] = -(loads.p[f] - p_ref) * area;
+    if (!loads.traction.empty()) force[f] += norm(area) * loads.traction[f];
+  }
+  return force;
+}
+
+std::vector<Vec3> nodal_loads(const WetSurface& surface, std::span<const Vec3> face_force) {
+  BW_CHECK(face_force.size() == surface.quads.size());
+  std::vector<Vec3> nodal(surface.x.size());
+  for (size_t f = 0; f < face_force.size(); ++f) {
+    const auto& q = surface.quads[f];
+    const int corners = is_triangle(q) ? 3 : 4;
+    const Vec3 part = face_force[f] / double(corners);
+    for (int c = 0; c < corners; ++c) nodal[size_t(q[size_t(c)])] += part;
+  }
+  return nodal;
+}
+
+FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall, double dt) {
+  BW_CHECK(loads.p.size() == surface.quads.size() && v_wall.size() == surface.x.size());
+  FluidTotals totals;
+  for (size_t f = 0; f < loads.p.size(); ++f) {
+    const auto& q = surface.quads[f];
+    const Vec3 area = area_vector(surface.x, q);
+    const Vec3 v = face_mean(v_wall, q);
+    Vec3 impulse = -(loads.p[f] * dt) * area;
+    if (!loads.traction.empty()) impulse += (norm(area) * dt) * loads.traction[f];
+    totals.impulse += impulse;
+    totals.moment += cross(face_mean(surface.x, q), impulse);
+    totals.work += dot(impulse, v);
+    totals.swept += dot(area, v) * dt;
+  }
+  return totals;
+}
+
+}  // namespace bw::coupling

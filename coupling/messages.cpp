@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "coupling/channel.h"
+
+namespace bw::coupling {
+namespace {
+
+template <size_t N>
+void put(char (&to)[N], const std::string& from) {
+  std::snprintf(to, N, "%s", from.c_str());
+}
+template <size_t N>
+std::string text(const char (&from)[N]) {
+  return std::string(from, strnlen(from, N));
+}
+
+std::string box(const double lower[3], const double upper[3]) {
+  return fmt::format("[{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] m", lower[0], upper[0], lower[1], upper[1],
+                     lower[2], upper[2]);
+}
+bool differ(double a, double b, double relative) {
+  return !(std::abs(a - b) <= relative * std::fmax(std::abs(a), std::abs(b)));
+}
+bool is_empty(const HelloBlock& h) { return !(h.lower[0] <= h.upper[0]); }
+bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// First entry that is not finite.
+Verdict check_finite(const char* name, const char* what, const std::vector<Vec3>& values) {
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!is_finite(values[i]))
+      return Fault{exit_bad_value,
+                   fmt::format("{} of {} {} is ({}, {}, {})", name, what, i, values[i].x, values[i].y, values[i].z)};
+  return {};
+}
+Verdict check_distinct(const char* name, std::vector<int64_t> ids) {
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, *twice)};
+  return {};
+}
+
+/// FNV-1a, 64 bit
+uint64_t hash_bytes(uint64_t h, const void* data, size_t bytes) {
+  const auto* byte = static_cast<const unsigned char*>(data);
+  for (size_t i = 0; i < bytes; ++i) h = (h ^ byte[i]) * 1099511628211ull;
+  return h;
+}
+template <class T>
+uint64_t hash(uint64_t h, const std::vector<T>& a) {
+  return hash_bytes(h, a.data(), a.size() * sizeof(T));
+}
+
+void put(double (&to)[3], const Vec3& from) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+}  // namespace
+
+// --- HELLO
+// ----------------------------------------------------------------------------------------------------------------------
+
+HelloBlock pack(const Hello& hello, const CouplingCase& cs, const char* role, int ranks) {
+  HelloBlock h{};
+  std::memcpy(h.magic, protocol_magic, sizeof h.magic);
+  h.endian = protocol_endian;
+  h.major = protocol_major;
+  h.minor = protocol_minor;
+  h.bytes = sizeof h;
+  put(h.role, role);
+  put(h.program, hello.program);
+  put(h.version, hello.version);
+  put(h.units, hello.units);
+  h.p_ref = cs.reference_pressure;
+  h.t0 = hello.t0;
+  h.t_end = hello.t_end;
+  h.features = hello.features;
+  h.scheme = int32_t(cs.kind());
+  h.ranks = ranks;
+  put(h.lower, hello.lower);
+  put(h.upper, hello.upper);
+  h.silence_limit = cs.silence_limit;
+  return h;
+}
+
+Verdict check_protocol(const HelloBlock& other, size_t bytes) {
+  if (bytes < offsetof(HelloBlock, role) || std::memcmp(other.magic, protocol_magic, sizeof other.magic) != 0)
+    return Fault{exit_protocol, "HELLO: the other program does not speak this protocol (magic)"};
+  if (other.endian != protocol_endian) return Fault{exit_protocol, "HELLO: the other program has another byte order"};
+  if (other.major != protocol_major)
+    return Fault{exit_version, fmt::format("HELLO: protocol version {}.{} here, {}.{} in the other program",
+                                           protocol_major, protocol_minor, other.major, other.minor)};
+  if (bytes != sizeof other || other.bytes != sizeof other)
+    return Fault{exit_malformed, fmt::format("HELLO has {} bytes, {} were expected", bytes, sizeof other)};
+  return {};
+}
+
+Verdict check_agreement(const HelloBlock& mine, const HelloBlock& other) {
+  if (text(mine.role) == text(other.role))
+    return Fault{exit_disagreement, fmt::format("HELLO: both programs call themselves {}", text(mine.role))};
+  const auto contradict = [&](const char* what, double a, double b, const char* unit) {
+    return Fault{exit_disagreement, fmt::format("HELLO: {} is {:.9g} {} in {}, {:.9g} {} in {}", what, a, unit,
+                                                text(mine.program), b, unit, text(other.program))};
+  };
+  if (differ(mine.p_ref, other.p_ref, 1e-12))
+    return contradict("the reference pressure", mine.p_ref, other.p_ref, "Pa");
+  if (differ(mine.t0, other.t0, 1e-12)) return contradict("the start time", mine.t0, other.t0, "s");
+  if (!std::isfinite(other.t_end)) return Fault{exit_bad_value, "HELLO: t_end is not a number"};
+  if (mine.scheme != 0 && other.scheme != 0 && mine.scheme != other.scheme)
+    return Fault{exit_disagreement, "HELLO: the two programs were given different coupling schemes"};
+  if (!is_empty(mine) && !is_empty(other))
+    for (int d = 0; d < 3; ++d)
+      if (!(mine.lower[d] <= other.upper[d] && other.lower[d] <= mine.upper[d])) {
+        const bool solid = text(mine.role) == name_of(Role::solid);
+        const HelloBlock &s = solid ? mine : other, &f = solid ? other : mine;
+        return Fault{exit_apart,
+                     fmt::format("HELLO: the wet surface of the solid, {}, lies outside the fluid's domain, {}",
+                                 box(s.lower, s.upper), box(f.lower, f.upper))};
+      }
+  return {};
+}
+
+std::string overlap_warning(const HelloBlock& solid, const HelloBlock& fluid) {
+  if (is_empty(solid)) return "the solid has no wet surface";
+  for (int d = 0; d < 3; ++d) {
+    const double slack = 1e-9 * (fluid.upper[d] - fluid.lower[d]);
+    if (solid.lower[d] < fluid.lower[d] - slack || solid.upper[d] > fluid.upper[d] + slack)
+      return fmt::format(
+          "a part of the wet surface, {}, lies outside the fluid's domain, {}: it gets the reference pressure",
+          box(solid.lower, solid.upper), box(fluid.lower, fluid.upper));
+  }
+  return {};
+}
+
+// --- STEP and SURFACE
+// -----------------------------------------------------------------------------------------------------------
+
+StepBlock pack(const Window& window, const WetSurface& surface) {
+  StepBlock s{};
+  s.window = window.index;
+  s.topo_version = surface.topo_version;
+  s.n_nodes = int64_t(surface.x.size());
+  s.n_faces = int64_t(surface.quads.size());
+  s.t0 = window.t0;
+  s.t1_max = window.t1_max;
+  s.dt_stable = window.dt_stable;
+  if (window.last) s.flags |= step_last;
+  if (window.mean_pressure) s.flags |= step_mean_pressure;
+  return s;
+}
+
+Verdict check_step(const StepBlock& s, const Known& known) {
+  if (s.window != known.window + 1)
+    return Fault{exit_malformed, fmt::format("STEP: window {} arrived, {} was expected", s.window, known.window + 1)};
+  if (!(s.t1_max > s.t0) || !std::isfinite(s.t1_max))
+    return Fault{exit_bad_value, fmt::format("STEP: t1_max = {:.9g} s is not after t0 = {:.9g} s", s.t1_max, s.t0)};
+  if (differ(s.t0, known.t, 1e-12))
+    return Fault{exit_bad_value,
+                 fmt::format("STEP: t0 = {:.17g} s, but the window before ended at {:.17g} s", s.t0, known.t)};
+  if (s.n_nodes < 0 || s.n_nodes > INT32_MAX || s.n_faces < 0 || s.n_faces > INT32_MAX)
+    return Fault{exit_malformed, fmt::format("STEP: {} nodes and {} faces", s.n_nodes, s.n_faces)};
+  if (s.flags & step_connectivity) return {};
+  if (s.topo_version != known.topo_version || s.hash != known.hash || s.n_nodes != known.n_nodes ||
+      s.n_faces != known.n_faces)
+    return Fault{exit_malformed,
+                 fmt::format("STEP: topology version {} ({} nodes, {} faces) without its connectivity; version {} ({} "
+                             "nodes, {} faces) is known",
+                             s.topo_version, s.n_nodes, s.n_faces, known.topo_version, known.n_nodes, known.n_faces)};
+  return {};
+}
+
+Verdict check_motion(const WetSurface& surface) {
+  if (auto fault = check_finite("SURFACE: x", "node", surface.x)) return fault;
+  return check_finite("SURFACE: v", "node", surface.v);
+}
+
+Verdict check_surface(const WetSurface& surface) {
+  const size_t nodes = surface.x.size(), faces = surface.quads.size();
+  if (surface.v.size() != nodes || surface.node_id.size() != nodes || surface.node_parent.size() != nodes ||
+      surface.face_id.size() != faces || surface.body.size() != faces || surface.flags.size() != faces)
+    return Fault{exit_malformed, "SURFACE: arrays of different lengths"};
+  for (size_t f = 0; f < faces; ++f)
+    for (const int32_t node : surface.quads[f])
+      if (node < 0 || size_t(node) >= nodes)
+        return Fault{exit_bad_value, fmt::format("SURFACE: face {} names node {} of {}", f, node, nodes)};
+  if (auto fault = check_distinct("node_id", surface.node_id)) return fault;
+  if (auto fault = check_distinct("face_id", surface.face_id)) return fault;
+  return check_motion(surface);
+}
+
+uint64_t connectivity_hash(const WetSurface& surface) {
+  uint64_t h = 14695981039346656037ull;
+  h = hash(h, surface.quads);
+  h = hash(h, surface.node_id);
+  h = hash(h, surface.node_parent);
+  h = hash(h, surface.face_id);
+  h = hash(h, surface.body);
+  return hash(h, surface.flags);
+}
+
+// --- LOAD
+// -----------------------------------------------------------------------------------------------------------------------
+
+LoadBlock pack(const Loads& loads, const StepBlock& asked) {
+  LoadBlock b{};
+  b.window = asked.window;
+  b.topo_version = asked.topo_version;
+  b.n_faces = int64_t(loads.p.size());
+  b.t1 = loads.t1;
+  if (!loads.traction.empty()) b.flags |= load_traction;
+  if (!loads.impedance.empty()) b.flags |= load_impedance;
+  if (loads.stop) b.flags |= load_stop;
+  const FluidTotals& t = loads.totals;
+  put(b.impulse, t.impulse);
+  put(b.moment, t.moment);
+  put(b.momentum, t.momentum);
+  b.work = t.work;
+  b.swept = t.swept;
+  b.mass = t.mass;
+  b.energy = t.energy;
+  b.mass_covered = t.mass_covered;
+  b.mass_uncovered = t.mass_uncovered;
+  b.energy_covered = t.energy_covered;
+  b.energy_uncovered = t.energy_uncovered;
+  b.dry_faces = t.dry_faces;
+  b.dry_area = t.dry_area;
+  return b;
+}
+
+FluidTotals totals_of(const LoadBlock& b) {
+  FluidTotals t;
+  t.impulse = {b.impulse[0], b.impulse[1], b.impulse[2]};
+  t.moment = {b.moment[0], b.moment[1], b.moment[2]};
+  t.momentum = {b.momentum[0], b.momentum[1], b.momentum[2]};
+  t.work = b.work;
+  t.swept = b.swept;
+  t.mass = b.mass;
+  t.energy = b.energy;
+  t.mass_covered = b.mass_covered;
+  t.mass_uncovered = b.mass_uncovered;
+  t.energy_covered = b.energy_covered;
+  t.energy_uncovered = b.energy_uncovered;
+  t.dry_faces = b.dry_faces;
+  t.dry_area = b.dry_area;
+  return t;
+}
+
+Verdict check_load(const LoadBlock& load, const StepBlock& asked) {
+  if (load.window != asked.window || load.topo_version != asked.topo_version || load.n_faces != asked.n_faces)
+    return Fault{
+        exit_malformed,
+        fmt::format("LOAD answers window {}, topology {}, {} faces; asked were window {}, topology {}, {} faces",
+                    load.window, load.topo_version, load.n_faces, asked.window, asked.topo_version, asked.n_faces)};
+  if (!(load.t1 > asked.t0) || !(load.t1 <= asked.t1_max))
+    return Fault{exit_bad_value,
+                 fmt::format("LOAD: t1 = {:.17g} s is not in ({:.17g}, {:.17g}] s", load.t1, asked.t0, asked.t1_max)};
+  return {};
+}
+
+Verdict check_values(const Loads& loads, size_t n_faces) {
+  if (loads.p.size() != n_faces)
+    return Fault{exit_malformed, fmt::format("LOAD: {} pressures for {} faces", loads.p.size(), n_faces)};
+  if ((!loads.traction.empty() && loads.traction.size() != n_faces) ||
+      (!loads.impedance.empty() && loads.impedance.size() != n_faces))
+    return Fault{exit_malformed, fmt::format("LOAD: {} tractions, {} impedances for {} faces", loads.traction.size(),
+                                             loads.impedance.size(), n_faces)};
+  for (size_t f = 0; f < n_faces; ++f)
+    if (!std::isfinite(loads.p[f]))
+      return Fault{exit_bad_value, fmt::format("LOAD: P of face {} is {}", f, loads.p[f])};
+  for (size_t f = 0; f < loads.impedance.size(); ++f)
+    if (!(loads.impedance[f] >= 0) || !std::isfinite(loads.impedance[f]))
+      return Fault{exit_bad_value, fmt::format("LOAD: impedance of face {} is {}", f, loads.impedance[f])};
+  return check_finite("LOAD: traction", "face", loads.traction);
+}
+
+}  // namespace bw::coupling

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/solid_side.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "coupling/handshake.h"
+#include "coupling/history.h"
+
+namespace bw::coupling {
+
+SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path)
+    : channel_(channel), case_(cs), predictor_(cs.kind()), ledger_(cs.reference_pressure) {
+  t_end_ = shake_hands(channel, cs, hello);
+  t_last_ = hello.t0;
+  if (channel.leader() && !history_path.empty()) history_ = std::make_unique<History>(history_path);
+}
+
+SolidSide::~SolidSide() = default;
+
+void SolidSide::send(Window window, const WetSurface& surface) {
+  window.index = next_window_++;
+  window.mean_pressure = case_.kind() == Scheme::fluid_first;
+  if (!(window.t1_max > window.t0) || window.t1_max > t_end_) window.t1_max = t_end_;
+  if (case_.window_max > 0) window.t1_max = std::min(window.t1_max, window.t0 + case_.window_max);
+  window_ = window;
+  channel_.set_place(window.index, window.t0);
+  if (!channel_.leader()) return;
+
+  const bool renewed = window.index == 0 || surface.topo_version != sent_.topo_version;
+  if (renewed)
+    sent_ = surface;
+  else
+    sent_.x = surface.x;
+  const double room = window.t1_max - window.t0;
+  sent_.v = predictor_.predict(surface, dt_usual_ > 0 ? std::min(dt_usual_, room) : room);
+
+  const uint64_t hash = step_.hash;
+  const LedgerRow books = ledger_.row();
+  step_ = pack(window, sent_);
+  step_.hash = renewed ? connectivity_hash(sent_) : hash;
+  if (renewed) step_.flags |= step_connectivity;
+  step_.born = books.born;
+  step_.dead = books.dead;
+  for (int d = 0; d < 3; ++d) {
+    step_.impulse[d] = books.solid.impulse[d];
+    step_.moment[d] = books.solid.moment[d];
+  }
+  step_.work = books.solid.work;
+  step_.volume_gap = books.volume_gap;
+
+  if (const Verdict fault = renewed ? check_surface(sent_) : check_motion(sent_))
+    channel_.fail(fault->code, fault->text);
+  channel_.send(tag_step, &step_, sizeof step_);
+  channel_.send(tag_x, std::span<const Vec3>(sent_.x));
+  channel_.send(tag_v, std::span<const Vec3>(sent_.v));
+  if (renewed) {
+    ids_ = sent_.node_id;
+    ids_.insert(ids_.end(), sent_.node_parent.begin(), sent_.node_parent.end());
+    ids_.insert(ids_.end(), sent_.face_id.begin(), sent_.face_id.end());
+    faces_ = sent_.body;
+    faces_.insert(faces_.end(), sent_.flags.begin(), sent_.flags.end());
+    channel_.send(tag_quads, std::span<const std::array<int32_t, 4>>(sent_.quads));
+    channel_.send(tag_ids, std::span<const int64_t>(ids_));
+    channel_.send(tag_faces, std::span<const int32_t>(faces_));
+  }
+  channel_.flush();
+}
+
+const Loads& SolidSide::receive() {
+  LoadBlock load{};
+  if (channel_.leader()) {
+    const double waited_before = channel_.seconds_waited();
+    channel_.receive(tag_load, "LOAD", &load, sizeof load);
+    if (const Verdict fault = check_load(load, step_)) channel_.fail(fault->code, fault->text);
+    const size_t n = size_t(load.n_faces);
+    loads_.p.resize(n);
+    loads_.traction.resize(load.flags & load_traction ? n : 0);
+    loads_.impedance.resize(load.flags & load_impedance ? n : 0);
+    channel_.receive(tag_p, "LOAD: P", loads_.p.data(), n * sizeof(double));
+    if (load.flags & load_traction)
+      channel_.receive(tag_traction, "LOAD: traction", loads_.traction.data(), n * sizeof(Vec3));
+    if (load.flags & load_impedance)
+      channel_.receive(tag_impedance, "LOAD: impedance", loads_.impedance.data(), n * sizeof(double));
+    if (const Verdict fault = check_values(loads_, n)) channel_.fail(fault->code, fault->text);
+    waited_ = channel_.seconds_waited() - waited_before;
+  }
+  channel_.share(&load, sizeof load);
+  channel_.share(loads_.p);
+  channel_.share(loads_.traction);
+  channel_.share(loads_.impedance);
+  loads_.t1 = load.t1;
+  loads_.stop = load.flags & load_stop;
+  loads_.totals = totals_of(load);
+
+  const double dt = loads_.t1 - window_.t0;
+  if (loads_.t1 < window_.t1_max || dt_usual_ == 0)
+    dt_usual_ = dt;  // one that the limit cut short says nothing about the next
+  if (channel_.leader()) {
+    predictor_.window_lasted(dt);
+    ledger_.open(window_, sent_, loads_);
+  }
+  return loads_;
+}
+
+void SolidSide::end_window(std::span<const Vec3> x_end) {
+  t_last_ = loads_.t1;
+  channel_.set_place(window_.index, t_last_);
+  if (!channel_.leader()) return;
+  if (const auto lost = ledger_.close(x_end)) channel_.fail(exit_ledger, *lost);
+  if (history_) history_->write(ledger_.row(), waited_);
+}
+
+void SolidSide::finish(const std::string& reason) {
+  if (channel_.leader()) {
+    ByeBlock bye{};
+    std::snprintf(bye.text, sizeof bye.text, "%s", reason.c_str());
+    channel_.send(tag_bye, &bye, sizeof bye);
+    channel_.flush();
+    channel_.receive(tag_bye, "BYE", &bye, sizeof bye);
+  }
+  channel_.mine().barrier();
+  channel_.close();
+}
+
+}  // namespace bw::coupling

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wire format as PROTOCOL.md states it, and what the checks say of bad messages.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "coupling/channel.h"
+#include "coupling/messages.h"
+
+namespace bw::coupling {
+namespace {
+
+WetSurface square() {
+  WetSurface s;
+  s.x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  s.v.assign(4, {});
+  s.quads = {{0, 1, 2, 3}};
+  s.node_id = {7, 8, 9, 10};
+  s.node_parent.assign(4, -1);
+  s.face_id = {3};
+  s.body = {0};
+  s.flags = {0};
+  return s;
+}
+
+/// "| offset | type | name |" rows of the block's table in PROTOCOL.md.
+size_t offset_in_protocol(const std::string& block, const std::string& field) {
+  std::ifstream file(SOURCE_DIR "/coupling/PROTOCOL.md");
+  std::string line;
+  bool inside = false;
+  while (std::getline(file, line)) {
+    if (line.starts_with("#")) inside = line.find(block) != line.npos;
+    if (!inside || line.find("`" + field + "`") == line.npos) continue;
+    return size_t(std::stoul(line.substr(line.find('|') + 1)));
+  }
+  return size_t(-1);
+}
+
+#define EXPECT_OFFSET(block, type, field) \
+  EXPECT_EQ(offset_in_protocol(block, #field), offsetof(type, field)) << block << " " #field
+
+TEST(Wire, BlocksLieAsTheProtocolSays) {
+  EXPECT_OFFSET("HELLO", HelloBlock, endian);
+  EXPECT_OFFSET("HELLO", HelloBlock, role);
+  EXPECT_OFFSET("HELLO", HelloBlock, p_ref);
+  EXPECT_OFFSET("HELLO", HelloBlock, t_end);
+  EXPECT_OFFSET("HELLO", HelloBlock, features);
+  EXPECT_OFFSET("HELLO", HelloBlock, scheme);
+  EXPECT_OFFSET("HELLO", HelloBlock, lower);
+  EXPECT_OFFSET("HELLO", HelloBlock, restart_id);
+  EXPECT_OFFSET("HELLO", HelloBlock, silence_limit);
+  EXPECT_OFFSET("STEP", StepBlock, window);
+  EXPECT_OFFSET("STEP", StepBlock, n_faces);
+  EXPECT_OFFSET("STEP", StepBlock, t1_max);
+  EXPECT_OFFSET("STEP", StepBlock, flags);
+  EXPECT_OFFSET("STEP", StepBlock, hash);
+  EXPECT_OFFSET("STEP", StepBlock, impulse);
+  EXPECT_OFFSET("STEP", StepBlock, volume_gap);
+  EXPECT_OFFSET("LOAD", LoadBlock, t1);
+  EXPECT_OFFSET("LOAD", LoadBlock, flags);
+  EXPECT_OFFSET("LOAD", LoadBlock, impulse);
+  EXPECT_OFFSET("LOAD", LoadBlock, swept);
+  EXPECT_OFFSET("LOAD", LoadBlock, momentum);
+  EXPECT_OFFSET("LOAD", LoadBlock, dry_faces);
+  EXPECT_OFFSET("LOAD", LoadBlock, dry_area);
+  EXPECT_OFFSET("BYE", ByeBlock, text);
+  EXPECT_OFFSET("FAIL", FailBlock, window);
+  EXPECT_OFFSET("FAIL", FailBlock, text);
+  EXPECT_EQ(sizeof(Vec3), 24u);
+}
+
+TEST(Wire, HelloRoundTripAgrees) {
+  CouplingCase cs;
+  const Hello solid{.program = "csd", .version = "1", .t_end = 1, .lower = {0, 0, 0}, .upper = {1, 1, 1}};
+  const Hello fluid{.program = "cfd", .version = "1", .t_end = 1, .lower = {-1, -1, -1}, .upper = {2, 2, 2}};
+  const HelloBlock a = pack(solid, cs, "solid", 1), b = pack(fluid, cs, "fluid", 2);
+  EXPECT_FALSE(check_protocol(a, sizeof a));
+  EXPECT_FALSE(check_agreement(a, b));
+  EXPECT_EQ(overlap_warning(a, b), "");
+  cs.scheme = "box1";
+  EXPECT_EQ(check_agreement(a, pack(fluid, cs, "fluid", 2))->code, exit_disagreement);
+}
+
+TEST(Wire, PartlyOutsideWarnsApartFails) {
+  const CouplingCase cs;
+  Hello solid{.program = "csd", .lower = {0, 0, 0}, .upper = {1, 1, 3}};
+  const Hello fluid{.program = "cfd", .lower = {-1, -1, -1}, .upper = {2, 2, 2}};
+  const HelloBlock b = pack(fluid, cs, "fluid", 1);
+  EXPECT_FALSE(check_agreement(pack(solid, cs, "solid", 1), b));
+  EXPECT_NE(overlap_warning(pack(solid, cs, "solid", 1), b).find("outside"), std::string::npos);
+  solid.lower.z = 2.5;
+  EXPECT_EQ(check_agreement(pack(solid, cs, "solid", 1), b)->code, exit_apart);
+  EXPECT_EQ(check_agreement(b, pack(solid, cs, "solid", 1))->code, exit_apart);
+  solid.lower.z = 1e300, solid.upper.z = -1e300, solid.lower.x = 2, solid.upper.x = 1;  // nothing wet
+  EXPECT_FALSE(check_agreement(pack(solid, cs, "solid", 1), b));
+}
+
+TEST(Wire, StepMustFollowTheOneBefore) {
+  const WetSurface s = square();
+  const Window w{.index = 5, .t0 = 1, .t1_max = 2, .dt_stable = 0.1};
+  StepBlock step = pack(w, s);
+  step.hash = connectivity_hash(s);
+  const Known known{.window = 4, .t = 1, .topo_version = 0, .hash = step.hash, .n_nodes = 4, .n_faces = 1};
+  EXPECT_FALSE(check_step(step, known));
+  Known other = known;
+  other.window = 3;
+  EXPECT_EQ(check_step(step, other)->code, exit_malformed);
+  other = known;
+  other.hash += 1;
+  EXPECT_EQ(check_step(step, other)->code, exit_malformed);
+  other = known;
+  other.t = 0.9;
+  EXPECT_EQ(check_step(step, other)->code, exit_bad_value);
+  step.t1_max = 1;
+  EXPECT_EQ(check_step(step, known)->code, exit_bad_value);
+}
+
+TEST(Wire, SurfaceFaultsAreNamed) {
+  WetSurface s = square();
+  EXPECT_FALSE(check_surface(s));
+  s.quads[0] = {0, 1, 2, 2};  // a triangle
+  EXPECT_FALSE(check_surface(s));
+  s.quads[0][3] = 4;
+  EXPECT_EQ(check_surface(s)->text, "SURFACE: face 0 names node 4 of 4");
+  s = square();
+  s.node_id[2] = 7;
+  EXPECT_EQ(check_surface(s)->text, "SURFACE: node_id 7 occurs twice");
+  s = square();
+  s.x[1].z = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(check_surface(s)->text, "SURFACE: x of node 1 is (1, 0, inf)");
+  s = square();
+  s.body.clear();
+  EXPECT_EQ(check_surface(s)->code, exit_malformed);
+}
+
+TEST(Wire, EveryArrayCountsInTheHash) {
+  const uint64_t h = connectivity_hash(square());
+  WetSurface s = square();
+  s.x[0].x = 5;  // geometry does not
+  EXPECT_EQ(connectivity_hash(s), h);
+  for (int i = 0; i < 6; ++i) {
+    s = square();
+    if (i == 0) std::swap(s.quads[0][0], s.quads[0][1]);
+    if (i == 1) s.node_id[0] = 1;
+    if (i == 2) s.node_parent[0] = 1;
+    if (i == 3) s.face_id[0] = 1;
+    if (i == 4) s.body[0] = 1;
+    if (i == 5) s.flags[0] = 1;
+    EXPECT_NE(connectivity_hash(s), h) << i;
+  }
+}
+
+TEST(Wire, LoadTotalsSurviveTheTrip) {
+  Loads loads;
+  loads.t1 = 1.5;
+  loads.p = {1};
+  loads.stop = true;
+  loads.totals = {.impulse = {1, 2, 3},
+                  .moment = {4, 5, 6},
+                  .work = 7,
+                  .swept = 8,
+                  .mass = 9,
+                  .energy = 10,
+                  .momentum = {11, 12, 13},
+                  .mass_covered = 14,
+                  .mass_uncovered = 15,
+                  .energy_covered = 16,
+                  .energy_uncovered = 17,
+                  .dry_faces = 18,
+                  .dry_area = 19};
+  const StepBlock asked = pack(Window{.index = 2, .t0 = 1, .t1_max = 2}, square());
+  const LoadBlock b = pack(loads, asked);
+  EXPECT_FALSE(check_load(b, asked));
+  EXPECT_EQ(b.flags, uint32_t(load_stop));
+  const FluidTotals t = totals_of(b);
+  EXPECT_EQ(t.momentum, (Vec3{11, 12, 13}));
+  EXPECT_EQ(t.moment, (Vec3{4, 5, 6}));
+  EXPECT_EQ(t.dry_faces, 18);
+  EXPECT_EQ(t.energy_uncovered, 17);
+  loads.t1 = 1;
+  EXPECT_EQ(check_load(pack(loads, asked), asked)->code, exit_bad_value);
+  loads.t1 = std::nan("");
+  EXPECT_EQ(check_load(pack(loads, asked), asked)->code, exit_bad_value);
+}
+
+TEST(Wire, LoadValues) {
+  Loads loads;
+  loads.p = {1, 2};
+  EXPECT_FALSE(check_values(loads, 2));
+  EXPECT_EQ(check_values(loads, 3)->code, exit_malformed);
+  loads.traction = {{0, 0, 0}, {0, std::nan(""), 0}};
+  EXPECT_EQ(check_values(loads, 2)->text, "LOAD: traction of face 1 is (0, nan, 0)");
+  loads.traction.clear();
+  loads.impedance = {1, -1};
+  EXPECT_EQ(check_values(loads, 2)->code, exit_bad_value);
+}
+
+}  // namespace
+}  // namespace bw::coupling
