@@ -92,10 +92,10 @@ static_assert(sizeof(FailBlock) == 512);
 
 /// What one side says of itself in HELLO.
 struct Hello {
-  std::string program, version;  ///< for people
+  std::string program = {}, version = {};  ///< for people
   std::string units = "SI";      ///< native units of the program, for the log only; the wire is SI
   double t0 = 0, t_end = 0;      ///< s; t_end <= 0: no opinion
-  Vec3 lower, upper;             ///< m; solid: box of the wet surface (lower > upper: none yet), fluid: its domain
+  Vec3 lower = {}, upper = {};   ///< m; solid: box of the wet surface (lower > upper: none yet), fluid: its domain
   uint64_t features = 0;         ///< bits of Feature
 };
 enum Feature : uint64_t { feature_traction = 1, feature_impedance = 2 };

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "common/math/random.h"
 #include "coupling/ledger.h"
 
 namespace bw::coupling {
@@ -36,11 +35,11 @@ WetSurface patch(int n) {
   return s;
 }
 
-Loads loads_for(const WetSurface& s, double t1, double dt) {
+Loads loads_for(const WetSurface& s, double t0, double t1) {
   Loads loads;
   loads.t1 = t1;
   for (size_t f = 0; f < s.quads.size(); ++f) loads.p.push_back(1e5 * (1 + std::sin(double(f))));
-  loads.totals = wall_totals(s, loads, s.v, dt);
+  loads.totals = wall_totals(s, loads, s.v, t0);
   return loads;
 }
 
@@ -69,9 +68,9 @@ TEST(Loads, ReferencePressureLoadsNothing) {
 
 TEST(Ledger, BothSidesBalance) {
   WetSurface s = patch(7);
-  const double p_ref = 1e5, dt = 3e-6;
+  const double p_ref = 1e5, t1 = 1 + 3e-6, dt = t1 - 1;
   Ledger ledger(p_ref);
-  const Loads loads = loads_for(s, 1 + dt, dt);
+  const Loads loads = loads_for(s, 1, t1);
   ledger.open({.index = 0, .t0 = 1, .t1_max = 2}, s, loads);
   const auto force = nodal_loads(s, loads, p_ref);
   auto x = s.x;
@@ -100,7 +99,7 @@ TEST(Ledger, LostImpulseIsFound) {
   const WetSurface s = patch(4);
   const double dt = 1e-6;
   Ledger ledger(0);
-  const Loads loads = loads_for(s, dt, dt);
+  const Loads loads = loads_for(s, 0, dt);
   ledger.open({.index = 3, .t0 = 0, .t1_max = 1}, s, loads);
   ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, s.x, dt * (1 + 1e-11)));
   const auto text = ledger.close();
@@ -112,16 +111,16 @@ TEST(Ledger, GapBirthsAndDeaths) {
   WetSurface s = patch(4);
   const double dt = 1e-6;
   Ledger ledger(0);
-  const Loads loads = loads_for(s, dt, dt);
+  const Loads loads = loads_for(s, 0, dt);
   ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, s, loads);
   EXPECT_EQ(ledger.row().born, 0);
   // the solid stays: the wall went ahead by v dt, the gap is minus the swept volume
   ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, s.x, dt));
   EXPECT_FALSE(ledger.close(s.x));
-  EXPECT_NEAR(ledger.row().volume_gap, -loads.totals.swept, 1e-12 * std::abs(loads.totals.swept));
+  EXPECT_NEAR(ledger.row().volume_gap, -loads.totals.swept, 1e-10 * std::abs(loads.totals.swept));
   s.face_id[0] = 1000, s.face_id[1] = 1001;
   s.topo_version = 1;
-  ledger.open({.index = 1, .t0 = dt, .t1_max = 1}, s, loads_for(s, 2 * dt, dt));
+  ledger.open({.index = 1, .t0 = dt, .t1_max = 1}, s, loads_for(s, dt, 2 * dt));
   EXPECT_EQ(ledger.row().born, 2);
   EXPECT_EQ(ledger.row().dead, 2);
 }
