@@ -171,5 +171,36 @@ def moving_sphere_overhead():
     return [row("moving_sphere_overhead", seconds[1] / seconds[0] - 1, "of the run without it")]
 
 
+# --- coupling ---------------------------------------------------------------------------------------------------------------------------
+def exchange(faces):
+    subprocess.run(["cmake", "--build", str(BUILD), "--target", "bench_exchange"], check=True, stdout=subprocess.DEVNULL)
+    binary = str(BUILD / "bin" / "bench_exchange")
+    line = subprocess.run([str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    environment = os.environ | dict(item.split("=", 1) for item in line.split())
+    done = subprocess.run(["mpirun", "-n", "1", binary, "solid", str(faces), ":", "-n", "1", binary, "fluid", str(faces)], env=environment,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
+    values = {}
+    for text in done.stdout.splitlines():
+        parts = text.split()
+        if len(parts) == 2 and parts[0] in ("geometry_ms", "full_ms", "wait_cpu_share"):
+            values[parts[0]] = float(parts[1])
+    if done.returncode or len(values) != 3:
+        raise RunFailed(f"bench_exchange: {done.stdout[-400:]}")
+    return values
+
+
+def exchange_20k_ms():
+    """One exchange of 20,000 faces, geometry only and full; processor share of the side that waits"""
+    values = exchange(20000)
+    return [row("exchange_20k_ms", values["geometry_ms"], "ms", 1, 2), row("exchange_20k_full_ms", values["full_ms"], "ms", 1, 2),
+            row("wait_cpu_share", values["wait_cpu_share"], "of a core", 1, 2)]
+
+
+def exchange_200k_ms():
+    """The same, 200,000 faces"""
+    values = exchange(200000)
+    return [row("exchange_200k_ms", values["full_ms"], "ms", 1, 2), row("exchange_200k_geometry_ms", values["geometry_ms"], "ms", 1, 2)]
+
+
 GROUPS = {"solid": [taylor_j2, taylor_seconds, block_elastic, block_j2], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
-          "wall": [moving_sphere_overhead], "coupling": [], "precision": []}
+          "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": []}
