@@ -35,8 +35,7 @@ int end(const Session& session, int code, const std::string& message) {
     }
   }
   std::fflush(nullptr);
-  MPI_Abort(MPI_COMM_WORLD, code);
-  return code;
+  abort_all(code);
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 #include "common/app/machine.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <ctime>
+
+#include "common/parallel/loop.h"
 
 namespace bw {
 
@@ -24,8 +25,8 @@ int machine_cpus() {
 }
 
 int use_threads(int wanted) {
-  if (wanted > 0) omp_set_num_threads(wanted);
-  return omp_get_max_threads();
+  if (wanted > 0) set_thread_count(wanted);
+  return thread_count();
 }
 
 std::string thread_warning(int threads) {

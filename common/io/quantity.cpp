@@ -89,7 +89,7 @@ constexpr Unit units[] = {
     {"BTU", 1055.05585262, 0, dim::energy},
     {"Wh", 3600, 0, dim::energy, true},
     {"W", 1, 0, power_dim, true},
-    {"hp", 550 * foot* pound* g_n, 0, power_dim},
+    {"hp", 550 * foot * pound_force, 0, power_dim},
     // velocity, acceleration
     {"kn", 1852.0 / 3600, 0, dim::velocity},
     {"mph", 1609.344 / 3600, 0, dim::velocity},

@@ -11,6 +11,7 @@
 namespace bw {
 
 inline int thread_count() { return omp_get_max_threads(); }
+inline void set_thread_count(int threads) { omp_set_num_threads(threads); }
 
 /// body(i) for i in [0, n), iterations independent.
 template <class Body>

@@ -15,6 +15,11 @@ void check_mpi(int code, const char* call) {
   throw std::runtime_error(std::string(call) + ": " + std::string(text, size_t(length)));
 }
 
+void abort_all(int code) {
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::terminate();  // not reached: MPI_Abort ends the process
+}
+
 Comm::Comm(MPI_Comm comm) : comm_(comm) {
   if (comm == MPI_COMM_NULL) return;
   check_mpi(MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
@@ -90,7 +95,7 @@ Session::Session(int& argc, char**& argv) {
 
 Session::~Session() {
   // an exception on its way must not wait in MPI_Finalize for ranks that wait for this one
-  if (std::uncaught_exceptions() > 0 && world().size() > 1) MPI_Abort(MPI_COMM_WORLD, 1);
+  if (std::uncaught_exceptions() > 0 && world().size() > 1) abort_all(1);
   MPI_Finalize();
 }
 

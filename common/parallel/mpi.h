@@ -13,6 +13,9 @@ namespace bw {
 /// Throws std::runtime_error with MPI's own text when code is an error.
 void check_mpi(int code, const char* call);
 
+/// Ends every rank of every program that was started together, now, without MPI_Finalize.
+[[noreturn]] void abort_all(int code);
+
 /// Not owned: a communicator and the few collectives that the programs use.
 class Comm {
  public:
