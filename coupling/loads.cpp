@@ -29,9 +29,11 @@ std::vector<Vec3> nodal_loads(const WetSurface& surface, std::span<const Vec3> f
   return nodal;
 }
 
-FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall, double t0) {
+FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall,
+                        const Window& window) {
   BW_CHECK(loads.p.size() == surface.quads.size() && v_wall.size() == surface.x.size());
-  const double dt = loads.t1 - t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
+  const double dt =
+      loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
   FluidTotals totals;
   for (size_t f = 0; f < loads.p.size(); ++f) {
     const auto& q = surface.quads[f];

@@ -57,7 +57,8 @@ inline std::vector<Vec3> nodal_loads(const WetSurface& surface, const Loads& loa
 /// The fluid's impulse, moment and work on the wetted faces for these loads; v_wall [n_nodes] is the velocity that the
 /// walls really had (the gap's repayment included). Sums in face order. The other members of FluidTotals are the
 /// caller's.
-FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall, double t0);
+FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall,
+                        const Window& window);
 
 inline bool is_triangle(const std::array<int32_t, 4>& q) { return q[3] == q[2]; }
 /// Mean of the face's nodes, a triangle's last node once.

@@ -59,7 +59,7 @@ int run_fluid(const Comm& mine, Channel& channel, const CouplingCase& cs, const 
     Loads loads;
     loads.t1 = std::min(window.t0 + 0.9e-4, window.t1_max);
     for (size_t f = 0; f < wet.quads.size(); ++f) loads.p.push_back(pressure(wet, f, window.index));
-    loads.totals = wall_totals(wet, loads, wet.v, window.t0);
+    loads.totals = wall_totals(wet, loads, wet.v, window);
     if (window.index == accident_window && !scenario.accident.empty()) {
       if (scenario.is("rank1")) {
         if (mine.rank() == 1) mark_accident(), throw PhysicsError("rank 1 is out of sorts");

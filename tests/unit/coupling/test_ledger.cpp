@@ -39,7 +39,7 @@ Loads loads_for(const WetSurface& s, double t0, double t1) {
   Loads loads;
   loads.t1 = t1;
   for (size_t f = 0; f < s.quads.size(); ++f) loads.p.push_back(1e5 * (1 + std::sin(double(f))));
-  loads.totals = wall_totals(s, loads, s.v, t0);
+  loads.totals = wall_totals(s, loads, s.v, {.t0 = t0});
   return loads;
 }
 
