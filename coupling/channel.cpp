@@ -164,7 +164,7 @@ void Channel::State::at_terminate() {
     }
   }
   if (active) active->end(exit_terminate, text);
-  std::abort();
+  _exit(exit_terminate);
 }
 
 // --- life

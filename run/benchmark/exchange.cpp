@@ -76,7 +76,7 @@ int play_fluid(Channel& channel, const CouplingCase& cs) {
     if (side.window().index >= warm_up + quiet_windows + full_windows) std::this_thread::sleep_for(std::chrono::milliseconds(400));
     loads.t1 = side.window().t1_max;
     loads.p.assign(side.surface().quads.size(), cs.reference_pressure);
-    loads.totals = wall_totals(side.surface(), loads, side.surface().v, dt);
+    loads.totals = wall_totals(side.surface(), loads, side.surface().v, side.window());
     side.send(loads);
   }
   return 0;
