@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/app/error.h"
+#include "common/math/sum.h"
 
 namespace bw::coupling {
 namespace {
@@ -30,15 +31,15 @@ SolidTotals& SolidTotals::operator+=(const SolidTotals& b) {
 
 SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_window, std::span<const Vec3> x_before,
                            std::span<const Vec3> x_after, double h) {
-  SolidTotals totals;
-  totals.substeps = 1;
+  ExactSum3 impulses, moments;
+  ExactSum work;
   for (size_t i = 0; i < f.size(); ++i) {
     const Vec3 impulse = h * f[i];
-    totals.impulse += impulse;
-    totals.moment += cross(x_window[i], impulse);
-    totals.work += dot(f[i], x_after[i] - x_before[i]);
+    impulses += impulse;
+    moments += cross(x_window[i], impulse);
+    work += dot(f[i], x_after[i] - x_before[i]);
   }
-  return totals;
+  return {.impulse = impulses.value(), .moment = moments.value(), .work = work.value(), .substeps = 1};
 }
 
 void Ledger::open(const Window& window, const WetSurface& surface, const Loads& loads) {
@@ -64,7 +65,7 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   }
   const double dt = loads.t1 - window.t0;
   area_.resize(quads_.size());
-  Vec3 area_sum, moment_sum;
+  ExactSum3 area_sum, moment_sum;
   for (size_t f = 0; f < quads_.size(); ++f) {
     area_[f] = area_vector(surface.x, quads_[f]);
     area_sum += area_[f];
@@ -73,8 +74,8 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
     row_.impulse_scale += std::abs(loads.p[f]) * norm(area_[f]) * dt;
     if (!loads.traction.empty()) row_.impulse_scale += norm(loads.traction[f]) * norm(area_[f]) * dt;
   }
-  reference_impulse_ = (p_ref_ * dt) * area_sum;
-  reference_moment_ = (p_ref_ * dt) * moment_sum;
+  reference_impulse_ = (p_ref_ * dt) * area_sum.value();
+  reference_moment_ = (p_ref_ * dt) * moment_sum.value();
   x_wall_.resize(surface.x.size());
   for (size_t i = 0; i < x_wall_.size(); ++i) x_wall_[i] = surface.x[i] + dt * surface.v[i];
 }

@@ -2,6 +2,7 @@
 #include "coupling/loads.h"
 
 #include "common/app/error.h"
+#include "common/math/sum.h"
 
 namespace bw::coupling {
 
@@ -32,20 +33,31 @@ std::vector<Vec3> nodal_loads(const WetSurface& surface, std::span<const Vec3> f
 FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall,
                         const Window& window) {
   BW_CHECK(loads.p.size() == surface.quads.size() && v_wall.size() == surface.x.size());
+<<<<<<< HEAD
   const double dt =
       loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
   FluidTotals totals;
+=======
+  const double dt = loads.t1 - t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
+  ExactSum3 impulses, moments;
+  ExactSum work, swept;
+>>>>>>> b6c103b (Ledger sums that do not lose digits on large surfaces; exchange benchmark follows)
   for (size_t f = 0; f < loads.p.size(); ++f) {
     const auto& q = surface.quads[f];
     const Vec3 area = area_vector(surface.x, q);
     const Vec3 v = face_mean(v_wall, q);
     Vec3 impulse = -(loads.p[f] * dt) * area;
     if (!loads.traction.empty()) impulse += (norm(area) * dt) * loads.traction[f];
-    totals.impulse += impulse;
-    totals.moment += cross(face_mean(surface.x, q), impulse);
-    totals.work += dot(impulse, v);
-    totals.swept += dot(area, v) * dt;
+    impulses += impulse;
+    moments += cross(face_mean(surface.x, q), impulse);
+    work += dot(impulse, v);
+    swept += dot(area, v) * dt;
   }
+  FluidTotals totals;
+  totals.impulse = impulses.value();
+  totals.moment = moments.value();
+  totals.work = work.value();
+  totals.swept = swept.value();
   return totals;
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums whose round-off does not grow with the number of terms (Neumaier's compensated sum): books that must close to 1e-12.
+#pragma once
+#include <cmath>
+
+#include "common/math/tensor.h"
+
+namespace bw {
+
+class ExactSum {
+ public:
+  ExactSum& operator+=(double a) {
+    const double t = sum_ + a;
+    lost_ += std::abs(sum_) >= std::abs(a) ? (sum_ - t) + a : (a - t) + sum_;
+    sum_ = t;
+    return *this;
+  }
+  double value() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+class ExactSum3 {
+ public:
+  ExactSum3& operator+=(const Vec3& a) {
+    x_ += a.x;
+    y_ += a.y;
+    z_ += a.z;
+    return *this;
+  }
+  Vec3 value() const { return {x_.value(), y_.value(), z_.value()}; }
+
+ private:
+  ExactSum x_, y_, z_;
+};
+
+}  // namespace bw
