@@ -89,13 +89,18 @@ std::string listed(const Names& names, const char* quote = "\"") {
   return out;
 }
 
+/// The shorter of "1000000000" and "1e+09" that has all digits.
+std::string shown(double value) {
+  const std::string all = fmt::format("{}", value), few = fmt::format("{:.6g}", value);
+  return std::stod(few) == value && few.size() < all.size() ? few : all;
+}
 /// A default as it could be typed.
 std::string shown(double value, Dim dim) {
   if (std::isinf(value)) return value > 0 ? "unlimited" : "-unlimited";
   if (std::isnan(value)) return "none";
-  return dim == dim::none || value == 0 ? fmt::format("{}", value) : fmt::format("\"{} {}\"", value, si_symbol(dim));
+  return dim == dim::none || value == 0 ? shown(value) : fmt::format("\"{} {}\"", shown(value), si_symbol(dim));
 }
-std::string shown(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+std::string shown(const Vec3& v) { return fmt::format("[{}, {}, {}]", shown(v.x), shown(v.y), shown(v.z)); }
 
 std::string kind_with_unit(const char* what, Dim dim) {
   return dim == dim::none ? what : fmt::format("{} [{}]", what, si_symbol(dim));
@@ -412,7 +417,7 @@ void Keys::begin_pick(const char* key, const std::vector<std::string>& names, in
 
 void Keys::begin_alternative(const char* key, const char* name) {
   impl_->outer.push_back(impl_->section);
-  impl_->section = &impl_->section->add(fmt::format("{} with {} = \"{}\"", impl_->section->path, key, name), "", "");
+  impl_->section = &impl_->section->add(fmt::format("{}({} = \"{}\")", impl_->section->path, key, name), "", "");
 }
 
 void Keys::end_alternative() {

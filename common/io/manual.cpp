@@ -29,8 +29,8 @@ TOML 1.0. One file serves both programs; each reads its own table and the common
   `"4.29e6 J/kg"`, `"0.5 kg/(m s^2)"`. Numbers of a list may be either: `["1 cm", 0.02, 0]`.
 - A point or vector is a list of three: `[0, 0, "-300 m/s"]`.
 - `[a.b]` opens a table, `[[a.b]]` one of a list of tables; `b = {key = 1}` and `b = [{key = 1}, {key = 2}]` say the same in line.
-- Below, `a.b[].c` is the key c in each of the tables [[a.b]]; a heading `a.b with kind = "x"` lists the keys that stand beside
-  `kind = "x"` in the table [a.b].
+- Below, `a.b[]` stands for each of the tables [[a.b]]. A heading `a.b(kind = "x")` lists the keys that stand beside `kind = "x"` in
+  the table [a.b].
 - Paths of files are relative to the folder of the case file.
 - A key that is not listed here is an error.
 
