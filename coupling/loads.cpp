@@ -33,15 +33,10 @@ std::vector<Vec3> nodal_loads(const WetSurface& surface, std::span<const Vec3> f
 FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span<const Vec3> v_wall,
                         const Window& window) {
   BW_CHECK(loads.p.size() == surface.quads.size() && v_wall.size() == surface.x.size());
-<<<<<<< HEAD
   const double dt =
       loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
-  FluidTotals totals;
-=======
-  const double dt = loads.t1 - t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
   ExactSum3 impulses, moments;
   ExactSum work, swept;
->>>>>>> b6c103b (Ledger sums that do not lose digits on large surfaces; exchange benchmark follows)
   for (size_t f = 0; f < loads.p.size(); ++f) {
     const auto& q = surface.quads[f];
     const Vec3 area = area_vector(surface.x, q);
