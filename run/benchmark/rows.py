@@ -19,9 +19,15 @@ def row(name, value, unit, threads=1, ranks=1):
     return dict(name=name, value=float(value), unit=unit, threads=threads, ranks=ranks)
 
 
+def build(target):
+    done = subprocess.run(["cmake", "--build", str(BUILD), "--target", target], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        raise RunFailed(f"{target} could not be built:\n{done.stdout[-1500:]}")
+
+
 def machine():
     """FMA peak and triad."""
-    subprocess.run(["cmake", "--build", str(BUILD), "--target", "bench_machine"], check=True, stdout=subprocess.DEVNULL)
+    build("bench_machine")
     text = subprocess.run([str(BUILD / "bin" / "bench_machine")], check=True, stdout=subprocess.PIPE, text=True,
                           env=os.environ | {"OMP_NUM_THREADS": str(CORES)}).stdout
     MACHINE.update((key, float(value)) for key, value in (line.split() for line in text.splitlines()))
@@ -173,7 +179,7 @@ def moving_sphere_overhead():
 
 # --- coupling ---------------------------------------------------------------------------------------------------------------------------
 def exchange(faces):
-    subprocess.run(["cmake", "--build", str(BUILD), "--target", "bench_exchange"], check=True, stdout=subprocess.DEVNULL)
+    build("bench_exchange")
     binary = str(BUILD / "bin" / "bench_exchange")
     line = subprocess.run([str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout
     environment = os.environ | dict(item.split("=", 1) for item in line.split())

@@ -103,6 +103,9 @@ def main():
             offences += 1
             print(f"{path.relative_to(ROOT)}:{line}: {rule}")
     for path in [p for folder in ("run", "tests", ".ci") for p in sorted((ROOT / folder).rglob("*")) if p.is_file()]:
+        if path.suffix in (".md", ".cmake", ".toml", ".py", ".sh") and re.search(r"^(<{7} |>{7} )", path.read_text(encoding="utf-8"), re.M):
+            offences += 1
+            print(f"{path.relative_to(ROOT)}: a merge was left half done")
         if path.suffix in (".sh", ".py") or path.relative_to(ROOT).as_posix() in ("run/verify", "run/bench", "run/breakwave", ".ci/run"):
             head = path.read_text(encoding="utf-8").split("\n")[:2]
             if "# SPDX-License-Identifier: Apache-2.0" not in head:
