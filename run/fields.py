@@ -52,7 +52,10 @@ class Solid:
         with h5py.File(path, "r") as file:
             root = file["VTKHDF"]
             self.points = root["Points"][()].astype(float)
-            self.hex = root["Connectivity"][()].reshape(-1, 8)
+            nodes = root["Connectivity"][()]
+            parts = root["NumberOfConnectivityIds"][()]  # a part for each rank, with its own node numbers
+            first = np.concatenate([[0], np.cumsum(root["NumberOfPoints"][()])[:-1]])
+            self.hex = (nodes + np.repeat(first, parts)).reshape(-1, 8)
             self.cell = {name: data[()] for name, data in root.get("CellData", {}).items()}
             self.point = {name: data[()] for name, data in root.get("PointData", {}).items()}
 

@@ -24,6 +24,7 @@ struct RunControl {
   struct Output {
     std::string directory = "out";
     double fields_every = 0, history_every = 0;  ///< [s]
+    bool exact = false;                          ///< fields with all their bits
     template <class K>
     void describe(K& k) {
       k.optional("directory", directory, "where results go, relative to the current folder; created if absent");
@@ -31,6 +32,7 @@ struct RunControl {
                  "interval of field files (VTKHDF, with a .vtkhdf.series of true times); 0: none");
       k.optional("history_every", history_every, dim::time,
                  "interval of rows in the history tables (CSV); 0: every step");
+      k.optional("exact", exact, "field files hold doubles (64 bits) instead of floats");
       k.expect(!directory.empty(), "directory", "a folder");
       k.expect(fields_every >= 0, "fields_every", "a positive time, or 0 for no field files");
       k.expect(history_every >= 0, "history_every", "a positive time, or 0 for a row every step");

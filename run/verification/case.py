@@ -89,7 +89,7 @@ def run(name, text, ranks="1+1", threads=0, only=None, expect=0):
 
 
 def output(every_field="0", every_history="0", directory="out"):
-    return f'[output]\ndirectory = "{directory}"\nfields_every = "{every_field}"\nhistory_every = "{every_history}"\n'
+    return f'[output]\ndirectory = "{directory}"\nfields_every = "{every_field}"\nhistory_every = "{every_history}"\nexact = true\n'
 
 
 def unit_tests(room, pattern):
