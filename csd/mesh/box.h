@@ -14,10 +14,12 @@ struct Box {
   std::vector<int> cells{1, 1, 1};
   bool is_split = false;
   static constexpr auto name = "box";
-  template <class K> void describe(K& k) {
+  template <class K>
+  void describe(K& k) {
     k.required("lower", lower, dim::length, "corner with the smallest coordinates");
     k.required("upper", upper, dim::length, "corner with the largest coordinates");
-    k.expect(upper.x > lower.x && upper.y > lower.y && upper.z > lower.z, "upper", "a corner above `lower` in x, y and z");
+    k.expect(upper.x > lower.x && upper.y > lower.y && upper.z > lower.z, "upper",
+             "a corner above `lower` in x, y and z");
     k.required("cells", cells, "elements along x, y, z");
     k.expect(cells.size() == 3 && cells[0] > 0 && cells[1] > 0 && cells[2] > 0, "cells", "three counts of at least 1");
     k.optional("grading", grading, dim::none, "length of the last element over the first, along x, y, z");

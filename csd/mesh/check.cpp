@@ -33,18 +33,21 @@ void check_connectivity(const Mesh& mesh, const std::string& where) {
     for (size_t a = 0; a < 8; ++a) {
       nodes[a] = mesh.hex[e][a];
       if (nodes[a] < 0 || nodes[a] >= mesh.node_count())
-        throw InputError(fmt::format("{}: element {} uses node {}, which does not exist", where, mesh.elem_gid[e], nodes[a]));
+        throw InputError(
+            fmt::format("{}: element {} uses node {}, which does not exist", where, mesh.elem_gid[e], nodes[a]));
       is_used[size_t(nodes[a])] = 1;
     }
     std::sort(nodes.begin(), nodes.end());
     if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end())
-      throw InputError(fmt::format("{}: {} uses a node twice (degenerate hexahedra are not supported)", where, element(mesh, e)));
+      throw InputError(
+          fmt::format("{}: {} uses a node twice (degenerate hexahedra are not supported)", where, element(mesh, e)));
     sorted.push_back({nodes, i});
   }
   std::sort(sorted.begin(), sorted.end());
   for (size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].first == sorted[i - 1].first)
-      throw InputError(fmt::format("{}: {} has the same nodes as element {} (duplicate)", where, element(mesh, ElemId(sorted[i].second)),
+      throw InputError(fmt::format("{}: {} has the same nodes as element {} (duplicate)", where,
+                                   element(mesh, ElemId(sorted[i].second)),
                                    mesh.elem_gid[ElemId(sorted[i - 1].second)]));
   const auto free = std::find(is_used.begin(), is_used.end(), 0);
   if (free != is_used.end()) {
@@ -100,8 +103,9 @@ int mend_node_order(Mesh& mesh, const std::string& where) {
     const int order = valid_node_order(c);
     if (order < 0) {
       const HexVolume v = hex_volume(c);
-      throw InputError(fmt::format("{}: {} is inverted: volume {:.6g} m^3, smallest Jacobian {:.6g} m^3, in no known node order valid", where,
-                                   element(mesh, e), v.volume, v.min_jacobian));
+      throw InputError(fmt::format(
+          "{}: {} is inverted: volume {:.6g} m^3, smallest Jacobian {:.6g} m^3, in no known node order valid", where,
+          element(mesh, e), v.volume, v.min_jacobian));
     }
     if (order == 0) continue;
     ++mended;
@@ -119,7 +123,8 @@ MeshQuality check_mesh(Mesh& mesh, const std::string& where, bool may_have_piece
   MeshQuality quality;
   quality.mended = mend_node_order(mesh, where);
   if (quality.mended > 0)
-    quality.notes.push_back(fmt::format("{}: node order of {} elements was wrong and has been mended", where, quality.mended));
+    quality.notes.push_back(
+        fmt::format("{}: node order of {} elements was wrong and has been mended", where, quality.mended));
   quality.nodes = mesh.node_count();
   quality.elements = mesh.elem_count();
   std::vector<double> scaled;
@@ -141,20 +146,23 @@ MeshQuality check_mesh(Mesh& mesh, const std::string& where, bool may_have_piece
   if (quality.min_scaled_jacobian <= 0)
     quality.notes.push_back(where + ": an element has an inverted corner (its integration points are valid)");
   if (NodeId hinge; !has_no_hinge(mesh, Topology(mesh), hinge))
-    throw InputError(fmt::format("{}: node {} at {} joins elements that share no face there (a hinge)", where, mesh.node_gid[hinge],
-                                 place(mesh.X[hinge])));
+    throw InputError(fmt::format("{}: node {} at {} joins elements that share no face there (a hinge)", where,
+                                 mesh.node_gid[hinge], place(mesh.X[hinge])));
   quality.pieces = count_pieces(mesh);
   if (quality.pieces > 1 && !may_have_pieces)
-    throw InputError(fmt::format("{}: the mesh falls into {} unconnected pieces (coincident nodes not merged?); pieces = true allows it", where,
-                                 quality.pieces));
+    throw InputError(fmt::format(
+        "{}: the mesh falls into {} unconnected pieces (coincident nodes not merged?); pieces = true allows it", where,
+        quality.pieces));
   if (const auto inner = mesh.face_sets.find("inner"); inner != mesh.face_sets.end() && !inner->second.empty())
     if (is_closed(mesh, inner->second)) quality.cavity_volume = -sum_faces(mesh, mesh.X, inner->second).volume;
   return quality;
 }
 
 std::string summary(const MeshQuality& q) {
-  std::string text = fmt::format("{} elements, {} nodes, {:.6g} m^3, edges {:.4g} to {:.4g} m, scaled Jacobian {:.3f} at least, {:.3f} median, {} below 0.2",
-                                 q.elements, q.nodes, q.volume, q.min_edge, q.max_edge, q.min_scaled_jacobian, q.median_scaled_jacobian, q.poor);
+  std::string text = fmt::format(
+      "{} elements, {} nodes, {:.6g} m^3, edges {:.4g} to {:.4g} m, scaled Jacobian {:.3f} at least, {:.3f} median, {} "
+      "below 0.2",
+      q.elements, q.nodes, q.volume, q.min_edge, q.max_edge, q.min_scaled_jacobian, q.median_scaled_jacobian, q.poor);
   if (q.pieces > 1) text += fmt::format(", {} pieces", q.pieces);
   if (q.cavity_volume > 0) text += fmt::format(", cavity {:.6g} m^3", q.cavity_volume);
   return text;

@@ -7,8 +7,8 @@
 
 namespace bw::csd {
 
-/// A solid cylinder (or frustum) with a butterfly cross-section. Sets of nodes and faces: lower, upper (ends), side; cut_x, cut_y,
-/// cut_z: the planes of a half or quarter, by the direction of their normal.
+/// A solid cylinder (or frustum) with a butterfly cross-section. Sets of nodes and faces: lower, upper (ends), side;
+/// cut_x, cut_y, cut_z: the planes of a half or quarter, by the direction of their normal.
 struct Cylinder {
   double radius = 0, upper_radius = 0, length = 0, grading = 1;
   int across = 4, along = 8;
@@ -16,7 +16,8 @@ struct Cylinder {
   Vec3 base{0, 0, 0};
   bool is_split = false;
   static constexpr auto name = "cylinder";
-  template <class K> void describe(K& k) {
+  template <class K>
+  void describe(K& k) {
     k.required("radius", radius, dim::length, "radius at the base");
     k.expect(radius > 0, "radius", "a positive length");
     upper_radius = radius;
@@ -32,13 +33,15 @@ struct Cylinder {
     k.expect(grading > 0, "grading", "a positive ratio");
     k.choice("axis", axis, {"x", "y", "z"}, "direction of the axis");
     k.optional("base", base, dim::length, "centre of the lower end");
-    k.choice("sector", sector, {"full", "half", "quarter"}, "part of the cross-section, between symmetry planes through the axis");
+    k.choice("sector", sector, {"full", "half", "quarter"},
+             "part of the cross-section, between symmetry planes through the axis");
     k.optional("split", is_split, "each hex through six tetrahedra into 24 hexes");
   }
   Mesh make() const;
 };
 
-/// A hollow cylinder or ring. Sets of nodes and faces: inner, outer, lower, upper; cut_x, cut_y, cut_z as for the cylinder.
+/// A hollow cylinder or ring. Sets of nodes and faces: inner, outer, lower, upper; cut_x, cut_y, cut_z as for the
+/// cylinder.
 struct Tube {
   double inner_radius = 0, outer_radius = 0, length = 0, grading = 1;
   int around = 32, through = 2, along = 8;
@@ -46,7 +49,8 @@ struct Tube {
   Vec3 base{0, 0, 0};
   bool is_split = false;
   static constexpr auto name = "tube";
-  template <class K> void describe(K& k) {
+  template <class K>
+  void describe(K& k) {
     k.required("inner_radius", inner_radius, dim::length, "radius of the bore");
     k.expect(inner_radius > 0, "inner_radius", "a positive length");
     k.required("outer_radius", outer_radius, dim::length, "outer radius");
@@ -62,8 +66,10 @@ struct Tube {
     k.expect(grading > 0, "grading", "a positive ratio");
     k.choice("axis", axis, {"x", "y", "z"}, "direction of the axis");
     k.optional("base", base, dim::length, "centre of the lower end");
-    k.choice("sector", sector, {"full", "half", "quarter"}, "part of the cross-section, between symmetry planes through the axis");
-    k.expect(around >= 4 && (sector == "full" || around % 4 == 0), "around", "at least 4; a multiple of 4 for a sector");
+    k.choice("sector", sector, {"full", "half", "quarter"},
+             "part of the cross-section, between symmetry planes through the axis");
+    k.expect(around >= 4 && (sector == "full" || around % 4 == 0), "around",
+             "at least 4; a multiple of 4 for a sector");
     k.optional("split", is_split, "each hex through six tetrahedra into 24 hexes");
   }
   Mesh make() const;

@@ -38,8 +38,9 @@ Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh) {
         const Face fa = face_of(a), fb = face_of(b);
         int32_t &pa = partner[fa.elem][size_t(fa.side)], &pb = partner[fb.elem][size_t(fb.side)];
         if (pa >= 0 || pb >= 0)
-          throw InputError("mesh: three elements share one face, two of them " + std::to_string(mesh.elem_gid[fa.elem]) + " and " +
-                           std::to_string(mesh.elem_gid[fb.elem]) + " (elements overlap)");
+          throw InputError("mesh: three elements share one face, two of them " +
+                           std::to_string(mesh.elem_gid[fa.elem]) + " and " + std::to_string(mesh.elem_gid[fb.elem]) +
+                           " (elements overlap)");
         pa = b;
         pb = a;
       }
@@ -57,7 +58,8 @@ std::vector<Face> boundary_faces(const Mesh& mesh) {
   return faces;
 }
 
-void add_set(Mesh& mesh, const std::vector<Face>& boundary, const std::string& name, const std::function<bool(NodeId)>& holds) {
+void add_set(Mesh& mesh, const std::vector<Face>& boundary, const std::string& name,
+             const std::function<bool(NodeId)>& holds) {
   auto& nodes = mesh.node_sets[name];
   for (int32_t n = 0; n < mesh.node_count(); ++n)
     if (holds(NodeId(n))) nodes.push_back(NodeId(n));

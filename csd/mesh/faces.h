@@ -21,12 +21,14 @@ Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh);
 std::vector<Face> boundary_faces(const Mesh& mesh);
 
 /// Node set and face set `name`: the nodes for which `holds` is true, and the boundary faces that have no other nodes.
-void add_set(Mesh& mesh, const std::vector<Face>& boundary, const std::string& name, const std::function<bool(NodeId)>& holds);
+void add_set(Mesh& mesh, const std::vector<Face>& boundary, const std::string& name,
+             const std::function<bool(NodeId)>& holds);
 
 /// The nodes of a face set, ascending.
 std::vector<NodeId> nodes_of_faces(const Mesh& mesh, const std::vector<Face>& faces);
 
-/// Sum of area vectors and enclosed volume of the faces [m^2, m^3] with the outward normals of their elements at positions x.
+/// Sum of area vectors and enclosed volume of the faces [m^2, m^3] with the outward normals of their elements at
+/// positions x.
 struct FaceSum {
   Vec3 area;
   double area_norm = 0;  ///< sum of |A|

@@ -45,7 +45,8 @@ class Points {
   int32_t index(const GmshElement& e, int a) const {
     const auto it = index_.find(e.nodes[size_t(a)]);
     if (it == index_.end())
-      throw InputError(fmt::format("{}: element {} uses node {}, which is not in $Nodes", file_.at(e.offset), e.tag, e.nodes[size_t(a)]));
+      throw InputError(fmt::format("{}: element {} uses node {}, which is not in $Nodes", file_.at(e.offset), e.tag,
+                                   e.nodes[size_t(a)]));
     return it->second;
   }
   const GmshFile& file_;
@@ -115,7 +116,8 @@ void add_face_sets(Mesh& mesh, const Named& named) {
 Mesh Gmsh::make() const {
   const GmshFile raw = read_gmsh(file, place);
   const Points points(raw);
-  if (points.x.empty()) throw InputError(file + ": no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
+  if (points.x.empty())
+    throw InputError(file + ": no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
   std::vector<std::array<int32_t, 4>> tets;
   for (const GmshElement& e : raw.elements) {
     if (e.type != tetrahedron) continue;

@@ -16,19 +16,26 @@ namespace bw::csd {
 int gmsh_dimension(int type) { return type == 15 ? 0 : type == 1 ? 1 : type == 2 || type == 3 ? 2 : 3; }
 int gmsh_node_count(int type) {
   switch (type) {
-    case 15: return 1;
-    case 1: return 2;
-    case 2: return 3;
+    case 15:
+      return 1;
+    case 1:
+      return 2;
+    case 2:
+      return 3;
     case 3:
-    case 4: return 4;
-    case 5: return 8;
-    default: return 0;
+    case 4:
+      return 4;
+    case 5:
+      return 8;
+    default:
+      return 0;
   }
 }
 
 std::string GmshFile::at(size_t offset) const {
   if (is_binary) return fmt::format("{}: byte {}", path, offset);
-  return fmt::format("{}:{}", path, 1 + std::count(text.begin(), text.begin() + long(std::min(offset, text.size())), '\n'));
+  return fmt::format("{}:{}", path,
+                     1 + std::count(text.begin(), text.begin() + long(std::min(offset, text.size())), '\n'));
 }
 
 std::string GmshFile::group(int dimension, int number) const {
@@ -50,11 +57,16 @@ class Reader {
       skip_space();
       if (at_ == text_.size()) break;
       const std::string name = section();
-      if (name == "PhysicalNames") read_names();
-      else if (name == "Entities" && is_4_) read_entities();
-      else if (name == "Nodes") is_4_ ? read_nodes_4() : read_nodes_2(), has_nodes = true;
-      else if (name == "Elements") is_4_ ? read_elements_4() : read_elements_2(), has_elements = true;
-      else skip(name);
+      if (name == "PhysicalNames")
+        read_names();
+      else if (name == "Entities" && is_4_)
+        read_entities();
+      else if (name == "Nodes")
+        is_4_ ? read_nodes_4() : read_nodes_2(), has_nodes = true;
+      else if (name == "Elements")
+        is_4_ ? read_elements_4() : read_elements_2(), has_elements = true;
+      else
+        skip(name);
       end(name);
     }
     if (!has_nodes) fail("the file has no $Nodes");
@@ -63,9 +75,12 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& message) const { fail_at(at_, message); }
-  [[noreturn]] void fail_at(size_t offset, const std::string& message) const { throw InputError(file_.at(offset) + ": " + message); }
+  [[noreturn]] void fail_at(size_t offset, const std::string& message) const {
+    throw InputError(file_.at(offset) + ": " + message);
+  }
 
-  // --- words and numbers ------------------------------------------------------------------------------------------------
+  // --- words and numbers
+  // ------------------------------------------------------------------------------------------------
   void skip_space() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
   }
@@ -75,15 +90,18 @@ class Reader {
     while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
     return std::string_view(text_).substr(begin, at_ - begin);
   }
-  template <class T> T from_text(const char* what) {
+  template <class T>
+  T from_text(const char* what) {
     const std::string_view w = word();
     T value{};
     const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
     if (error != std::errc() || end != w.data() + w.size())
-      fail_at(at_ - w.size(), fmt::format("expected {}, found {}", what, w.empty() ? "the end of the file" : fmt::format("'{}'", w.substr(0, 40))));
+      fail_at(at_ - w.size(), fmt::format("expected {}, found {}", what,
+                                          w.empty() ? "the end of the file" : fmt::format("'{}'", w.substr(0, 40))));
     return value;
   }
-  template <class T> T from_bytes(const char* what) {
+  template <class T>
+  T from_bytes(const char* what) {
     if (text_.size() - at_ < sizeof(T)) fail(fmt::format("expected {}, found the end of the file", what));
     char bytes[sizeof(T)];
     std::memcpy(bytes, text_.data() + at_, sizeof(T));
@@ -93,13 +111,17 @@ class Reader {
     std::memcpy(&value, bytes, sizeof(T));
     return value;
   }
-  template <class T> T get(const char* what) { return file_.is_binary ? from_bytes<T>(what) : from_text<T>(what); }
+  template <class T>
+  T get(const char* what) {
+    return file_.is_binary ? from_bytes<T>(what) : from_text<T>(what);
+  }
   size_t count(int64_t n, const char* what) const {  // no allocation on the word of a broken file
     if (n < 0 || uint64_t(n) > text_.size()) fail(fmt::format("{} {}: more than the file can hold", n, what));
     return size_t(n);
   }
 
-  // --- sections ---------------------------------------------------------------------------------------------------------
+  // --- sections
+  // ---------------------------------------------------------------------------------------------------------
   std::string section() {
     skip_space();
     const size_t begin = at_;
@@ -124,7 +146,8 @@ class Reader {
   void read_format() {
     const size_t begin = at_;
     const std::string version(word());
-    if (version != "2.2" && version != "4.1") fail_at(begin, fmt::format("format {} (supported: 2.2 and 4.1; gmsh -format msh41)", version));
+    if (version != "2.2" && version != "4.1")
+      fail_at(begin, fmt::format("format {} (supported: 2.2 and 4.1; gmsh -format msh41)", version));
     is_4_ = version == "4.1";
     const int kind = from_text<int>("0 (text) or 1 (binary)"), size = from_text<int>("the size of a number");
     if (size != 8) fail(fmt::format("numbers of {} bytes (supported: 8)", size));
@@ -151,7 +174,8 @@ class Reader {
     }
   }
 
-  // --- format 2.2 ---------------------------------------------------------------------------------------------------------
+  // --- format 2.2
+  // ---------------------------------------------------------------------------------------------------------
   void read_nodes_2() {
     const size_t n = count(from_text<int64_t>("the number of nodes"), "nodes");
     if (file_.is_binary) line_end();
@@ -192,12 +216,18 @@ class Reader {
   }
   GmshElement make_element(int64_t tag, int type) const {
     if (gmsh_node_count(type) == 0)
-      fail(fmt::format("element {} is {}: only first-order hexahedra and tetrahedra (with their faces, edges and points) are supported", tag,
-                       type == 6 ? "a prism" : type == 7 ? "a pyramid" : fmt::format("of Gmsh type {}", type)));
+      fail(
+          fmt::format("element {} is {}: only first-order hexahedra and tetrahedra (with their faces, edges and "
+                      "points) are supported",
+                      tag,
+                      type == 6   ? "a prism"
+                      : type == 7 ? "a pyramid"
+                                  : fmt::format("of Gmsh type {}", type)));
     return {tag, type, {}, {}, at_};
   }
 
-  // --- format 4.1 ---------------------------------------------------------------------------------------------------------
+  // --- format 4.1
+  // ---------------------------------------------------------------------------------------------------------
   int64_t get_size(const char* what) { return get<int64_t>(what); }
   void read_entities() {
     size_t counts[4];
@@ -233,7 +263,8 @@ class Reader {
     const size_t blocks = count(get_size("a number of blocks"), "blocks");
     for (int i = 0; i < 3; ++i) get_size("a count");
     for (size_t b = 0; b < blocks; ++b) {
-      const int dimension = get<int32_t>("a dimension"), entity = get<int32_t>("an entity's number"), type = get<int32_t>("an element type");
+      const int dimension = get<int32_t>("a dimension"), entity = get<int32_t>("an entity's number"),
+                type = get<int32_t>("an element type");
       const size_t n = count(get_size("a number of elements"), "elements");
       const auto groups = groups_.find({dimension, entity});
       for (size_t i = 0; i < n; ++i) {

@@ -13,7 +13,7 @@ namespace bw::csd {
 
 struct GmshElement {
   int64_t tag = 0;
-  int type = 0;                  ///< Gmsh's number: 1 line, 2 triangle, 3 quadrangle, 4 tetrahedron, 5 hexahedron, 15 point
+  int type = 0;  ///< Gmsh's number: 1 line, 2 triangle, 3 quadrangle, 4 tetrahedron, 5 hexahedron, 15 point
   std::vector<int> physical;     ///< groups that it is in
   std::array<int64_t, 8> nodes;  ///< tags; as many as the type has
   size_t offset = 0;             ///< where it stands in the file
@@ -35,7 +35,8 @@ struct GmshFile {
 int gmsh_dimension(int type);
 int gmsh_node_count(int type);
 
-/// Reads format 2.2 or 4.1. InputError at the place where the file is not what it should be; `place` is named if it can't be opened.
+/// Reads format 2.2 or 4.1. InputError at the place where the file is not what it should be; `place` is named if it
+/// can't be opened.
 GmshFile read_gmsh(const std::string& path, const std::string& place);
 
 }  // namespace bw::csd

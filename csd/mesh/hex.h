@@ -14,10 +14,13 @@ using HexCorners = std::array<Vec3, 8>;
 inline constexpr int hex_sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                        {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 /// The three nodes joined to a corner by edges, ordered so that a right-handed hex gives positive corner Jacobians.
-inline constexpr int hex_corner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-inline constexpr int hex_edge[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+inline constexpr int hex_corner[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                         {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+inline constexpr int hex_edge[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                        {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
-/// Node of the hex that the edge from `node` leads to when it leaves the face `side` (jp of eq (16)); `node` lies on the face.
+/// Node of the hex that the edge from `node` leads to when it leaves the face `side` (jp of eq (16)); `node` lies on
+/// the face.
 inline constexpr int across(int side, int node) {
   constexpr int mirror[3][8] = {{1, 0, 3, 2, 5, 4, 7, 6}, {3, 2, 1, 0, 7, 6, 5, 4}, {4, 5, 6, 7, 0, 1, 2, 3}};
   return mirror[side / 2][node];
@@ -76,8 +79,8 @@ inline Vec3 centroid(const HexCorners& c) {
   return 0.125 * sum;
 }
 
-/// Volume of the cone from the origin over a bilinear quad: summed over a closed surface with outward normals, the enclosed
-/// volume of the bilinear patches exactly (a hex's faces are such patches).
+/// Volume of the cone from the origin over a bilinear quad: summed over a closed surface with outward normals, the
+/// enclosed volume of the bilinear patches exactly (a hex's faces are such patches).
 inline double cone_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (triple(a, b, c) + triple(a, c, d) + triple(a, b, d) + triple(b, c, d)) / 12.0;
 }

@@ -26,7 +26,8 @@ Vec3 turned(const Vec3& x, const Vec3& axis, double degrees) {
 void add_region(Mesh& mesh, const RegionSet& set, const std::vector<Face>& boundary) {
   const auto is_inside = [&](NodeId n) {
     const Vec3& p = mesh.X[n];
-    return p.x >= set.lower.x && p.y >= set.lower.y && p.z >= set.lower.z && p.x <= set.upper.x && p.y <= set.upper.y && p.z <= set.upper.z;
+    return p.x >= set.lower.x && p.y >= set.lower.y && p.z >= set.lower.z && p.x <= set.upper.x && p.y <= set.upper.y &&
+           p.z <= set.upper.z;
   };
   mesh.node_sets.erase(set.name);
   mesh.face_sets.erase(set.name);
@@ -40,8 +41,8 @@ void add_region(Mesh& mesh, const RegionSet& set, const std::vector<Face>& bound
 }
 
 template <class Id>
-void append_sets(std::map<std::string, std::vector<Id>>& to, const std::map<std::string, std::vector<Id>>& from, const std::string& body,
-                 const auto& shifted) {
+void append_sets(std::map<std::string, std::vector<Id>>& to, const std::map<std::string, std::vector<Id>>& from,
+                 const std::string& body, const auto& shifted) {
   for (const auto& [name, items] : from)
     for (const std::string& key : {name, body + "." + name})
       for (const Id& item : items) to[key].push_back(shifted(item));
@@ -62,7 +63,8 @@ void perturb_nodes(Mesh& mesh, double fraction, uint64_t seed) {
   for (int32_t i = 0; i < mesh.node_count(); ++i) {
     const NodeId n(i);
     const double reach = fraction * shortest[n];
-    for (int d = 0; d < 3; ++d) mesh.X[n][d] += reach * (2 * uniform01(seed, uint64_t(mesh.node_gid[n]), uint64_t(d)) - 1);
+    for (int d = 0; d < 3; ++d)
+      mesh.X[n][d] += reach * (2 * uniform01(seed, uint64_t(mesh.node_gid[n]), uint64_t(d)) - 1);
   }
 }
 

@@ -14,7 +14,8 @@ namespace bw::csd {
 struct RegionSet {
   std::string name;
   Vec3 lower{-1e30, -1e30, -1e30}, upper{1e30, 1e30, 1e30};
-  template <class K> void describe(K& k) {
+  template <class K>
+  void describe(K& k) {
     k.required("name", name, "name of the set of nodes, elements and boundary faces");
     k.optional("lower", lower, dim::length, "smallest coordinates (after scale, turn and move)");
     k.optional("upper", upper, dim::length, "largest coordinates");
@@ -29,7 +30,8 @@ struct MeshInput {
   bool may_have_pieces = false;
   std::vector<RegionSet> sets;
   std::string place;  // in the case file, for errors
-  template <class K> void describe(K& k) {
+  template <class K>
+  void describe(K& k) {
     k.pick("kind", kind, "where the mesh comes from", true);
     k.optional("scale", scale, dim::none, "factor on all coordinates (0.001 for a file in millimetres)");
     k.expect(scale > 0, "scale", "a positive factor");
@@ -49,11 +51,12 @@ struct MeshInput {
 /// Builds, transforms and checks one body's mesh. InputError as check_mesh and the kinds say.
 Mesh make_mesh(const MeshInput& input, MeshQuality& quality);
 
-/// One mesh of several bodies: body = position in the list; ids follow in that order. A set `s` of body `b` is called "b.s", and
-/// "s" holds the sets of that name of all bodies; element set "b": all elements of the body.
+/// One mesh of several bodies: body = position in the list; ids follow in that order. A set `s` of body `b` is called
+/// "b.s", and "s" holds the sets of that name of all bodies; element set "b": all elements of the body.
 Mesh merge(std::vector<Mesh> bodies, const std::vector<std::string>& names);
 
-/// Moves nodes off the boundary at random by up to `fraction` of their shortest edge in each direction; the same for any order of nodes.
+/// Moves nodes off the boundary at random by up to `fraction` of their shortest edge in each direction; the same for
+/// any order of nodes.
 void perturb_nodes(Mesh& mesh, double fraction, uint64_t seed);
 
 }  // namespace bw::csd

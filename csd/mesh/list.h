@@ -19,7 +19,10 @@ concept MeshMaker = requires(const M& m) {
 
 using MeshKind = std::variant<Box, Cylinder, Tube, ShellOfRevolution, Weapon, Gmsh>;
 
-template <MeshMaker... Ms> constexpr bool all_make_meshes(const std::variant<Ms...>*) { return true; }
+template <MeshMaker... Ms>
+constexpr bool all_make_meshes(const std::variant<Ms...>*) {
+  return true;
+}
 static_assert(all_make_meshes(static_cast<const MeshKind*>(nullptr)));
 
 }  // namespace bw::csd

@@ -17,7 +17,8 @@ using Line = std::vector<ProfilePoint>;
 std::vector<size_t> corners_of(const Line& p) {  // and both ends
   std::vector<size_t> corner{0};
   for (size_t i = 1; i + 1 < p.size(); ++i) {
-    const double before = std::atan2(p[i].r - p[i - 1].r, p[i].z - p[i - 1].z), after = std::atan2(p[i + 1].r - p[i].r, p[i + 1].z - p[i].z);
+    const double before = std::atan2(p[i].r - p[i - 1].r, p[i].z - p[i - 1].z),
+                 after = std::atan2(p[i + 1].r - p[i].r, p[i + 1].z - p[i].z);
     if (std::abs(std::remainder(after - before, 2 * pi)) > 20 * pi / 180) corner.push_back(i);
   }
   corner.push_back(p.size() - 1);
@@ -27,7 +28,8 @@ std::vector<size_t> corners_of(const Line& p) {  // and both ends
 // relative arc lengths of the points first..last
 std::vector<double> lengths(const Line& p, size_t first, size_t last) {
   std::vector<double> s{0};
-  for (size_t i = first + 1; i <= last; ++i) s.push_back(s.back() + std::hypot(p[i].z - p[i - 1].z, p[i].r - p[i - 1].r));
+  for (size_t i = first + 1; i <= last; ++i)
+    s.push_back(s.back() + std::hypot(p[i].z - p[i - 1].z, p[i].r - p[i - 1].r));
   const double total = s.back();
   for (double& v : s) v = total > 0 ? v / total : v;
   return s;
@@ -54,7 +56,8 @@ Profile match(const Line& inner, const Line& outer) {
     corner_out = {0, outer.size() - 1};
   }
   for (size_t k = 1; k < corner_in.size(); ++k) {
-    const auto s_in = lengths(inner, corner_in[k - 1], corner_in[k]), s_out = lengths(outer, corner_out[k - 1], corner_out[k]);
+    const auto s_in = lengths(inner, corner_in[k - 1], corner_in[k]),
+               s_out = lengths(outer, corner_out[k - 1], corner_out[k]);
     std::vector<double> all(s_in);
     all.insert(all.end(), s_out.begin(), s_out.end());
     std::sort(all.begin(), all.end());
@@ -71,7 +74,8 @@ Profile match(const Line& inner, const Line& outer) {
   return profile;
 }
 
-Line arc(double z, double r, double radius, double from, double to, int n) {  // angle from the z-normal plane, towards +z
+Line arc(double z, double r, double radius, double from, double to,
+         int n) {  // angle from the z-normal plane, towards +z
   Line p;
   for (int i = 0; i <= n; ++i) {
     const double a = from + (to - from) * i / n;
@@ -120,7 +124,8 @@ Profile SphereProfile::make() const {
 
 Profile CanProfile::make() const {
   const double r = radius - wall, top = length - upper_wall;
-  return match({{lower_wall, 0}, {lower_wall, r}, {top, r}, {top, 0}}, {{0, 0}, {0, radius}, {length, radius}, {length, 0}});
+  return match({{lower_wall, 0}, {lower_wall, r}, {top, r}, {top, 0}},
+               {{0, 0}, {0, radius}, {length, radius}, {length, 0}});
 }
 
 Profile CapsuleProfile::make() const {
@@ -138,8 +143,10 @@ Profile CapsuleProfile::make() const {
 
 Profile Weapon::profile() const {
   const double radius = diameter / 2, tail = tail_diameter / 2, shoulder = length - nose_length;
-  const double t = base_plug / tail_length, floor = tail - tail_wall + t * (radius - wall - tail + tail_wall);  // radius of the cavity's floor
-  Line outer{{0, 0}, {0, tail}, {tail_length, radius}}, inner{{base_plug, 0}, {base_plug, floor}, {tail_length, radius - wall}};
+  const double t = base_plug / tail_length,
+               floor = tail - tail_wall + t * (radius - wall - tail + tail_wall);  // radius of the cavity's floor
+  Line outer{{0, 0}, {0, tail}, {tail_length, radius}},
+      inner{{base_plug, 0}, {base_plug, floor}, {tail_length, radius - wall}};
   append(outer, blunted_ogive(shoulder, radius, nose_length, nose_radius));
   append(inner, blunted_ogive(shoulder, radius - wall, nose_length - nose_plug, 0.5 * nose_radius));
   Profile profile{inner, outer, std::vector<bool>(inner.size(), false)};

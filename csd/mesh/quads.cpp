@@ -36,7 +36,9 @@ Quads::Point on_circle(int b, int n) {
   if (n % 4 != 0) return {std::cos(2 * pi * b / n), std::sin(2 * pi * b / n)};
   const int quarter = n / 4, rest = b % quarter;
   // by symmetry about 45 degrees x(b) == y(n/4 - b) bit for bit
-  const auto c = [&](int k) { return 2 * k <= quarter ? std::cos(pi / 2 * k / quarter) : std::sin(pi / 2 * (quarter - k) / quarter); };
+  const auto c = [&](int k) {
+    return 2 * k <= quarter ? std::cos(pi / 2 * k / quarter) : std::sin(pi / 2 * (quarter - k) / quarter);
+  };
   return turn({c(rest), rest == 0 ? 0.0 : c(quarter - rest)}, b / quarter);
 }
 
@@ -58,11 +60,13 @@ Quads quad_annulus(int around, int rings) {
 
 Quads quad_disc(int core, int rings) {
   const int k = core, n = 8 * k;
-  const double mid = double(k) / (k + rings);                 // radius of the core's mid-side
-  const double bulge = 1 + 0.22 * std::min(1.0, 1 / mid - 1);  // its corner is this much farther out: between circle and square
+  const double mid = double(k) / (k + rings);  // radius of the core's mid-side
+  const double bulge =
+      1 + 0.22 * std::min(1.0, 1 / mid - 1);  // its corner is this much farther out: between circle and square
   // point of the core's shell s in [0, 1], t in [-1, 1] along the side at +x
   const auto shell = [&](double s, double t) -> Quads::Point {
-    const double angle = (1 - s) * std::atan(t) + s * pi / 4 * t, corner = std::numbers::sqrt2 + (bulge - std::numbers::sqrt2) * s;
+    const double angle = (1 - s) * std::atan(t) + s * pi / 4 * t,
+                 corner = std::numbers::sqrt2 + (bulge - std::numbers::sqrt2) * s;
     const double rise = (1 / std::cos(pi / 4 * t) - 1) / (std::numbers::sqrt2 - 1);  // 0 at mid-side, 1 at the corner
     const double radius = s * mid * (1 + (corner - 1) * rise);
     return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -72,11 +76,16 @@ Quads quad_disc(int core, int rings) {
   for (int j = -k; j <= k; ++j)
     for (int i = -k; i <= k; ++i) {
       const int s = std::max(std::abs(i), std::abs(j));
-      if (s == 0) q.p.push_back({0, 0});
-      else if (i == s && j > -s) q.p.push_back(shell(double(s) / k, double(j) / s));
-      else if (j == s) q.p.push_back(turn(shell(double(s) / k, double(-i) / s), 1));
-      else if (i == -s) q.p.push_back(turn(shell(double(s) / k, double(-j) / s), 2));
-      else q.p.push_back(turn(shell(double(s) / k, double(i) / s), 3));
+      if (s == 0)
+        q.p.push_back({0, 0});
+      else if (i == s && j > -s)
+        q.p.push_back(shell(double(s) / k, double(j) / s));
+      else if (j == s)
+        q.p.push_back(turn(shell(double(s) / k, double(-i) / s), 1));
+      else if (i == -s)
+        q.p.push_back(turn(shell(double(s) / k, double(-j) / s), 2));
+      else
+        q.p.push_back(turn(shell(double(s) / k, double(i) / s), 3));
     }
   for (int j = -k; j < k; ++j)
     for (int i = -k; i < k; ++i) q.quad.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
@@ -103,7 +112,9 @@ Quads cut_sector(const Quads& q, const std::string& sector) {
   if (sector == "full") return q;
   Quads part;
   std::vector<int32_t> number(q.p.size(), -1);
-  const auto is_in = [&](int32_t i) { return q.p[size_t(i)].y > -1e-12 && (sector == "half" || q.p[size_t(i)].x > -1e-12); };
+  const auto is_in = [&](int32_t i) {
+    return q.p[size_t(i)].y > -1e-12 && (sector == "half" || q.p[size_t(i)].x > -1e-12);
+  };
   for (const auto& quad : q.quad) {
     if (!std::all_of(quad.begin(), quad.end(), is_in)) continue;
     part.quad.push_back(quad);
@@ -155,7 +166,8 @@ Swept sweep(const Quads& q, int layers, const std::function<Vec3(int, int)>& pla
     for (int l = 0; l < layers; ++l)
       for (const auto& a : q.quad) {
         const int32_t low = l * s.points, top = low + s.points;
-        hexes.push_back({low + a[0], low + a[1], low + a[2], low + a[3], top + a[0], top + a[1], top + a[2], top + a[3]});
+        hexes.push_back(
+            {low + a[0], low + a[1], low + a[2], low + a[3], top + a[0], top + a[1], top + a[2], top + a[3]});
       }
     for (size_t i = 0; i < x.size(); ++i) s.origin.push_back({int32_t(i), -1, -1, -1});
   }

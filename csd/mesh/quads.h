@@ -21,17 +21,19 @@ struct Quads {
 
 /// nx x ny cells of the unit square, point i + j (nx + 1).
 Quads quad_grid(int nx, int ny);
-/// Ring 1 <= hypot(x, y) <= 2 (the radius counts layers: 1 + r / rings), `around` cells: point b + r * around at the angle of b.
+/// Ring 1 <= hypot(x, y) <= 2 (the radius counts layers: 1 + r / rings), `around` cells: point b + r * around at the
+/// angle of b.
 Quads quad_annulus(int around, int rings);
-/// Unit disc without a degenerate centre: a core of (2 core)^2 cells inside `rings` rings of 8 core cells ("butterfly"). The last
-/// 8 core points are the rim, counter-clockwise from -45 degrees.
+/// Unit disc without a degenerate centre: a core of (2 core)^2 cells inside `rings` rings of 8 core cells
+/// ("butterfly"). The last 8 core points are the rim, counter-clockwise from -45 degrees.
 Quads quad_disc(int core, int rings);
 /// Only the quads in x >= 0 and y >= 0 ("quarter"), y >= 0 ("half") or all ("full").
 Quads cut_sector(const Quads& q, const std::string& sector);
 /// Unit vector of the angle 2 pi b / n, exact at the quarters if n is a multiple of 4.
 Quads::Point on_circle(int b, int n);
 
-/// Where a node of a swept mesh comes from: up to four (point, layer) pairs whose mean it is (one, unless the hexes were split).
+/// Where a node of a swept mesh comes from: up to four (point, layer) pairs whose mean it is (one, unless the hexes
+/// were split).
 struct Swept {
   Mesh mesh;
   std::vector<std::array<int32_t, 4>> origin;
@@ -43,8 +45,8 @@ struct Swept {
   std::vector<Face> boundary_;
 };
 
-/// Hexahedra between layers 0..n of copies of the quads; place(point, layer) is a position. `is_split`: each hex through six tets
-/// into 24 hexes. body = 0, gids in order of making.
+/// Hexahedra between layers 0..n of copies of the quads; place(point, layer) is a position. `is_split`: each hex
+/// through six tets into 24 hexes. body = 0, gids in order of making.
 Swept sweep(const Quads& q, int layers, const std::function<Vec3(int, int)>& place, bool is_split = false);
 
 /// Local (x, y, z) with z along `axis` "x", "y" or "z", moved to `base`: cyclic, so that no orientation changes.

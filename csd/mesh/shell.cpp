@@ -14,7 +14,9 @@ using std::numbers::pi;
 namespace {
 
 double distance(const ProfilePoint& a, const ProfilePoint& b) { return std::hypot(a.z - b.z, a.r - b.r); }
-ProfilePoint between(const ProfilePoint& a, const ProfilePoint& b, double t) { return {a.z + t * (b.z - a.z), a.r + t * (b.r - a.r)}; }
+ProfilePoint between(const ProfilePoint& a, const ProfilePoint& b, double t) {
+  return {a.z + t * (b.z - a.z), a.r + t * (b.r - a.r)};
+}
 
 /// The profile by arc length s of its middle line.
 class MiddleLine {
@@ -31,11 +33,14 @@ class MiddleLine {
   double widest() const { return widest_; }
   /// Point at t = 0 (inner) .. 1 (outer).
   ProfilePoint at(double s, double t) const {
-    const size_t i = std::min(s_.size() - 1, size_t(std::max<long>(1, std::upper_bound(s_.begin(), s_.end(), s) - s_.begin())));
+    const size_t i =
+        std::min(s_.size() - 1, size_t(std::max<long>(1, std::upper_bound(s_.begin(), s_.end(), s) - s_.begin())));
     const double f = s_[i] > s_[i - 1] ? (s - s_[i - 1]) / (s_[i] - s_[i - 1]) : 0;
-    return between(between(profile_.inner[i - 1], profile_.inner[i], f), between(profile_.outer[i - 1], profile_.outer[i], f), t);
+    return between(between(profile_.inner[i - 1], profile_.inner[i], f),
+                   between(profile_.outer[i - 1], profile_.outer[i], f), t);
   }
-  /// Where the disc over the pole ends: at a corner if one lies about there, else where the body is 0.8 of its full width.
+  /// Where the disc over the pole ends: at a corner if one lies about there, else where the body is 0.8 of its full
+  /// width.
   double disc_end(bool at_upper) const {
     const size_t n = s_.size();
     const auto from_pole = [&](size_t i) { return at_upper ? length() - s_[n - 1 - i] : s_[i]; };
@@ -78,7 +83,8 @@ struct Skin {
     const int32_t first = int32_t(p.size());
     for (const auto& q : disc.p) {
       const double rho = std::hypot(q.x, q.y);
-      p.push_back({rho > 1 - 1e-12 ? s_rim : s_pole + rho * (s_rim - s_pole), rho > 0 ? q.x / rho : 1, rho > 0 ? q.y / rho : 0});
+      p.push_back({rho > 1 - 1e-12 ? s_rim : s_pole + rho * (s_rim - s_pole), rho > 0 ? q.x / rho : 1,
+                   rho > 0 ? q.y / rho : 0});
     }
     for (auto q : disc.quad) {
       if (!is_upper) std::swap(q[1], q[3]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each tetrahedron into four hexahedra: nodes at the mid-edges, face centres and the centre, as the paper's meshes are made.
+// Each tetrahedron into four hexahedra: nodes at the mid-edges, face centres and the centre, as the paper's meshes are
+// made.
 #pragma once
 #include <array>
 #include <unordered_map>
@@ -14,8 +15,8 @@ class TetSplit {
  public:
   TetSplit(std::vector<Vec3> points, const std::vector<std::array<int32_t, 4>>& tets);
   std::vector<Vec3> x;
-  std::vector<std::array<int32_t, 8>> hexes;      ///< four for each tet, in the order of the tets
-  std::vector<std::array<int32_t, 4>> origin;     ///< points whose mean a node is, -1: fewer than four
+  std::vector<std::array<int32_t, 8>> hexes;   ///< four for each tet, in the order of the tets
+  std::vector<std::array<int32_t, 4>> origin;  ///< points whose mean a node is, -1: fewer than four
   /// The three quads that a triangle of the tets became; nodes -1 if no tet has that triangle.
   std::array<std::array<int32_t, 4>, 3> quads_of(std::array<int32_t, 3> triangle) const;
   /// Mid-node of an edge of the tets, -1: no such edge.

@@ -10,7 +10,8 @@
 
 namespace bw::csd {
 
-Topology::Topology(const Mesh& mesh) : partner_(pair_faces(mesh)), bonds_(size_t(mesh.elem_count()), 0), star_(size_t(mesh.node_count())) {
+Topology::Topology(const Mesh& mesh)
+    : partner_(pair_faces(mesh)), bonds_(size_t(mesh.elem_count()), 0), star_(size_t(mesh.node_count())) {
   for (const auto& h : mesh.hex)
     for (const NodeId n : h) ++star_[n].count;
   int32_t first = 0;
@@ -24,8 +25,10 @@ Topology::Topology(const Mesh& mesh) : partner_(pair_faces(mesh)), bonds_(size_t
     const ElemId e(i);
     for (const NodeId n : mesh.hex[e]) pool_[size_t(star_[n].first + star_[n].count++)] = e;
     for (int side = 0; side < 6; ++side) {
-      if (partner_[e][size_t(side)] >= 0) bonds_[e] = uint8_t(bonds_[e] | 1 << side);
-      else boundary_.push_back({e, side});
+      if (partner_[e][size_t(side)] >= 0)
+        bonds_[e] = uint8_t(bonds_[e] | 1 << side);
+      else
+        boundary_.push_back({e, side});
     }
   }
   original_ = int(boundary_.size());
@@ -125,7 +128,8 @@ std::string Topology::find_fault(const Mesh& mesh) const {
     for (const NodeId n : h) {
       ++uses[size_t(n.value)];
       const auto star = elements(n);
-      if (!std::binary_search(star.begin(), star.end(), e)) return fmt::format("element {} is missing at its node {}", i, n.value);
+      if (!std::binary_search(star.begin(), star.end(), e))
+        return fmt::format("element {} is missing at its node {}", i, n.value);
     }
     std::sort(h.begin(), h.end());
     if (std::adjacent_find(h.begin(), h.end()) != h.end()) return fmt::format("element {} has a node twice", i);
@@ -136,14 +140,16 @@ std::string Topology::find_fault(const Mesh& mesh) const {
       auto a = mesh.nodes_of(f), b = mesh.nodes_of(g);
       std::sort(a.begin(), a.end());
       std::sort(b.begin(), b.end());
-      if ((a == b) != is_bonded(f) || is_bonded(f) != is_bonded(g)) return fmt::format("bond of face {} of element {} is wrong", side, i);
+      if ((a == b) != is_bonded(f) || is_bonded(f) != is_bonded(g))
+        return fmt::format("bond of face {} of element {} is wrong", side, i);
     }
   }
   for (int32_t n = 0; n < mesh.node_count(); ++n) {
     const auto star = elements(NodeId(n));
     if (int(star.size()) != uses[size_t(n)] || !std::is_sorted(star.begin(), star.end()))
       return fmt::format("node {} lists {} elements, {} use it", n, star.size(), uses[size_t(n)]);
-    if (star_parts(mesh, NodeId(n)) != 1) return fmt::format("node {} is a hinge of {} parts", n, star_parts(mesh, NodeId(n)));
+    if (star_parts(mesh, NodeId(n)) != 1)
+      return fmt::format("node {} is a hinge of {} parts", n, star_parts(mesh, NodeId(n)));
   }
   if (!is_closed(mesh, boundary_)) return "the boundary is not closed";
   return "";

@@ -44,12 +44,13 @@ class Topology {
   /// The same, with the group of each element of elements(n); groups are numbered by their first element.
   int star_parts(const Mesh& mesh, NodeId n, std::vector<int>& part) const;
 
-  /// Gives `elems` (ascending, some but not all elements of `parent`) a new node in place of `parent`: mesh and adjacency are
-  /// changed, the mesh's nodal arrays and node sets grow by one. Faces that lose their bond are appended to boundary().
+  /// Gives `elems` (ascending, some but not all elements of `parent`) a new node in place of `parent`: mesh and
+  /// adjacency are changed, the mesh's nodal arrays and node sets grow by one. Faces that lose their bond are appended
+  /// to boundary().
   NodeId split(Mesh& mesh, NodeId parent, std::span<const ElemId> elems);
 
-  /// For tests: the first violation found of: eight distinct nodes an element; elements(n) as the connectivity says; partners
-  /// symmetric; bonded = four shared nodes; every star in one part; closed boundary. Empty: all well.
+  /// For tests: the first violation found of: eight distinct nodes an element; elements(n) as the connectivity says;
+  /// partners symmetric; bonded = four shared nodes; every star in one part; closed boundary. Empty: all well.
   std::string find_fault(const Mesh& mesh) const;
 
  private:
@@ -65,7 +66,7 @@ class Topology {
   std::vector<Face> boundary_;
   int original_ = 0;
   int64_t version_ = 0;
-  Field<int32_t, NodeId> membership_;            // index into memberships_
+  Field<int32_t, NodeId> membership_;                  // index into memberships_
   std::vector<std::vector<std::string>> memberships_;  // node sets that a node is in; 0: none
 };
 

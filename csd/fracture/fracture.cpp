@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/fracture/fracture.h"
+
+#include <algorithm>
+#include <queue>
+
+#include "common/app/error.h"
+#include "common/parallel/loop.h"
+#include "csd/fracture/disconnect.h"
+#include "csd/mesh/hex.h"
+
+namespace bw::csd {
+
+Fracture::Fracture(const FractureInput& input, const Mesh& mesh)
+    : input_(input),
+      weight_(size_t(mesh.elem_count()), 1.0),
+      seen_step_(size_t(mesh.elem_count()), 0),
+      done_step_(size_t(mesh.elem_count()), 0) {
+  if (!input.is_weighted) return;
+  parallel_for(mesh.elem_count(),
+               [&](int64_t e) { weight_[ElemId(e)] = hex_volume(corners(mesh.hex[ElemId(e)], mesh.X)).volume; });
+}
+
+void Fracture::begin_step(const Mesh& mesh) {
+  ++step_;
+  waiting_ = 0;
+  mean_.resize(size_t(mesh.node_count()));
+  mean_step_.resize(size_t(mesh.node_count()), 0);
+}
+
+void Fracture::forget(NodeId n) {
+  if (size_t(n.value) >= mean_.size()) {
+    mean_.resize(size_t(n.value) + 1);
+    mean_step_.resize(size_t(n.value) + 1, 0);
+  }
+  mean_step_[n] = 0;
+}
+
+double Fracture::nodal(const Topology& topology, std::span<const double> fail, NodeId n) {
+  if (mean_step_[n] == step_) return mean_[n];
+  double sum = 0, weight = 0;
+  for (const ElemId e : topology.elements(n)) {
+    sum += weight_[e] * fail[size_t(e.value)];
+    weight += weight_[e];
+  }
+  mean_step_[n] = step_;
+  return mean_[n] = sum / weight;
+}
+
+double Fracture::selection(const Mesh& mesh, const Topology& topology, std::span<const double> fail, ElemId e) {
+  if (!input_.is_smoothed) return fail[size_t(e.value)];
+  double sum = 0;
+  for (const NodeId n : mesh.hex[e]) sum += nodal(topology, fail, n);
+  return sum / 8;
+}
+
+bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, std::span<const Sym3> sigma,
+                       std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed) {
+  splits.clear();
+  changed.clear();
+  const int64_t elems = mesh.elem_count();
+  BW_CHECK(int64_t(x.size()) == mesh.node_count() && int64_t(sigma.size()) == elems && int64_t(fail.size()) == elems);
+  // a smoothed value is a mean of raw ones, so it reaches 1 only in the one-ring of an element that does
+  if (parallel_max(elems, 0.0, [&](int64_t e) { return fail[size_t(e)]; }) < 1) {
+    waiting_ = 0;
+    return false;
+  }
+  begin_step(mesh);
+  struct Candidate {
+    double value;
+    int64_t gid;
+    ElemId elem;
+    bool operator<(const Candidate& b) const { return value != b.value ? value < b.value : gid > b.gid; }
+  };
+  std::priority_queue<Candidate> worst;
+  const auto consider = [&](ElemId e) {
+    if (done_step_[e] == step_) return;
+    if (const double value = selection(mesh, topology, fail, e); value >= 1) worst.push({value, mesh.elem_gid[e], e});
+  };
+  for (int64_t i = 0; i < elems; ++i) {
+    if (fail[size_t(i)] < 1) continue;
+    if (!input_.is_smoothed) {
+      consider(ElemId(i));
+      continue;
+    }
+    for (const NodeId n : mesh.hex[ElemId(i)])
+      for (const ElemId e : topology.elements(n)) {
+        if (seen_step_[e] == step_) continue;
+        seen_step_[e] = step_;
+        consider(e);
+      }
+  }
+  while (!worst.empty()) {
+    const auto [value, gid, e] = worst.top();
+    worst.pop();
+    if (done_step_[e] == step_ || selection(mesh, topology, fail, e) != value)
+      continue;  // done, or listed again with its new value
+    done_step_[e] = step_;
+    const int side = choose_face(mesh, topology, e, x, sigma[size_t(e.value)]);
+    if (side < 0) {
+      ++waiting_;
+      continue;
+    }
+    const size_t first = splits.size();
+    if (detach_face(mesh, topology, {e, side}, splits, changed) > 0) ++opened_;
+    for (size_t i = first; i < splits.size(); ++i)
+      for (const NodeId n : {splits[i].parent, splits[i].child}) forget(n);
+    if (!input_.is_smoothed) continue;
+    for (size_t i = first; i < splits.size(); ++i)
+      for (const NodeId n : {splits[i].parent, splits[i].child})
+        for (const ElemId around : topology.elements(n)) consider(around);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return !splits.empty();
+}
+
+}  // namespace bw::csd

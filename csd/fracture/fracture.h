@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which elements break, and in which order their faces open.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/data/field.h"
+#include "common/math/tensor.h"
+#include "csd/fracture/list.h"
+#include "csd/mesh/topology.h"
+
+namespace bw::csd {
+
+/// [solid.fracture]
+struct FractureInput {
+  struct CriterionTable {
+    Criteria model = EqpsLimit{};
+    template <class K>
+    void describe(K& k) {
+      k.pick("kind", model, "when an element is broken", true);
+    }
+  } criterion;
+  bool is_smoothed = true, is_weighted = true;
+  template <class K>
+  void describe(K& k) {
+    k.table("criterion", criterion, "failure value of an element; 1 or more is broken");
+    k.optional("smoothing", is_smoothed, "select by the mean over an element's nodes of the mean over their elements");
+    k.optional("weighted", is_weighted, "that nodal mean weights elements by volume; false: plain mean");
+  }
+};
+
+class Fracture {
+ public:
+  Fracture(const FractureInput& input, const Mesh& mesh);
+
+  /// One step: broken elements, the worst first (ties: lowest elem_gid), open one face each, eq (16). Failure values
+  /// are taken anew around every opened face, for its nodes now average over fewer elements. An element without a
+  /// joined face in tension waits. x: current positions [m] of the nodes; sigma: mean Cauchy stress [Pa] and fail:
+  /// failure value, per element. Mesh and topology are changed; splits: in order, to be passed to State::append_copies;
+  /// changed: elements with new nodes, ascending. Returns true if there are any. The same for any number of threads.
+  bool advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, std::span<const Sym3> sigma,
+               std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed);
+
+  /// Failure value by which elements are selected: smoothed, or as given.
+  double selection(const Mesh& mesh, const Topology& topology, std::span<const double> fail, ElemId e);
+
+  int64_t opened() const { return opened_; }  ///< faces opened since the start
+  int64_t waiting() const {
+    return waiting_;
+  }  ///< elements that were broken at the last step but had no joined face in tension
+
+ private:
+  double nodal(const Topology& topology, std::span<const double> fail, NodeId n);
+  void forget(NodeId n);
+  void begin_step(const Mesh& mesh);
+
+  FractureInput input_;
+  Field<double, ElemId> weight_;
+  // of the present step: nodal means that are known, elements seen or done
+  int64_t step_ = 0;
+  Field<double, NodeId> mean_;
+  Field<int64_t, NodeId> mean_step_;
+  Field<int64_t, ElemId> seen_step_, done_step_;
+  int64_t opened_ = 0, waiting_ = 0;
+};
+
+}  // namespace bw::csd
