@@ -17,7 +17,7 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
-from matplotlib.colors import ListedColormap, LogNorm, Normalize  # noqa: E402
+from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize  # noqa: E402
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import fields  # noqa: E402
@@ -25,7 +25,7 @@ import raster  # noqa: E402
 
 plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25,
                      "legend.frameon": False, "figure.dpi": 130, "savefig.bbox": "tight"})
-STEEL = plt.get_cmap("inferno")
+STEEL = LinearSegmentedColormap.from_list("steel", [(0, "#98a0a8"), (0.12, "#b9ad95"), (0.35, "#e8a33d"), (0.65, "#cf3f22"), (1, "#5e0a2e")])
 
 
 def spread(entries, count):
@@ -87,7 +87,7 @@ def case_picture(directory, out, axis, frames):
         quads, owner = solid.boundary()
         pieces = solid.pieces()
         if k < len(solids):
-            shade = STEEL(np.clip(0.06 + 0.86 * strain[k] / top, 0, 1))[:, :3] if strain else np.full((len(solid.hex), 3), 0.55)
+            shade = STEEL(np.clip(strain[k] / top, 0, 1))[:, :3] if strain else np.full((len(solid.hex), 3), 0.55)
             title = microseconds(t)
         else:
             mass = np.bincount(pieces)
@@ -99,7 +99,7 @@ def case_picture(directory, out, axis, frames):
         ax.set_title(title, fontsize=11)
         ax.axis("off")
     if strain:
-        bar = figure.colorbar(plt.cm.ScalarMappable(Normalize(0, top), ListedColormap(STEEL(np.linspace(0.06, 0.92, 256)))), ax=list(axes[0]),
+        bar = figure.colorbar(plt.cm.ScalarMappable(Normalize(0, top), STEEL), ax=list(axes[0]),
                               orientation="horizontal", fraction=0.025, pad=0.02, aspect=60)
         bar.set_label("equivalent plastic strain")
     path = out / "case.png"
