@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -28,7 +29,7 @@ class Patience {
   void rest() const {
     const double waited = seconds_since(start_);
     if (waited < 50e-6) return;
-    std::this_thread::sleep_for(std::chrono::microseconds(waited < 20e-3 ? 50 : 500));
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(waited / 64, 50e-6, 2e-3)));
   }
   double seconds() const { return seconds_since(start_); }
 

@@ -15,7 +15,11 @@ namespace {
 /// Entries of the sorted list a that the sorted list b lacks.
 int64_t missing_in(const std::vector<int64_t>& a, const std::vector<int64_t>& b) {
   int64_t count = 0;
-  for (const int64_t id : a) count += !std::binary_search(b.begin(), b.end(), id);
+  auto at = b.begin();
+  for (const int64_t id : a) {
+    while (at != b.end() && *at < id) ++at;
+    count += at == b.end() || *at != id;
+  }
   return count;
 }
 
@@ -54,7 +58,7 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   if (first_ || surface.topo_version != topo_version_) {
     quads_ = surface.quads;
     std::vector<int64_t> face_id = surface.face_id;
-    std::sort(face_id.begin(), face_id.end());
+    if (!std::is_sorted(face_id.begin(), face_id.end())) std::sort(face_id.begin(), face_id.end());
     if (!first_) {
       row_.born = missing_in(face_id, face_id_);
       row_.dead = missing_in(face_id_, face_id);
@@ -66,14 +70,17 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   const double dt = loads.t1 - window.t0;
   area_.resize(quads_.size());
   ExactSum3 area_sum, moment_sum;
+  ExactSum area, scale;
   for (size_t f = 0; f < quads_.size(); ++f) {
     area_[f] = area_vector(surface.x, quads_[f]);
     area_sum += area_[f];
     moment_sum += cross(face_mean(surface.x, quads_[f]), area_[f]);
-    row_.area += norm(area_[f]);
-    row_.impulse_scale += std::abs(loads.p[f]) * norm(area_[f]) * dt;
-    if (!loads.traction.empty()) row_.impulse_scale += norm(loads.traction[f]) * norm(area_[f]) * dt;
+    area += norm(area_[f]);
+    scale += std::abs(loads.p[f]) * norm(area_[f]) * dt;
+    if (!loads.traction.empty()) scale += norm(loads.traction[f]) * norm(area_[f]) * dt;
   }
+  row_.area = area.value();
+  row_.impulse_scale = scale.value();
   reference_impulse_ = (p_ref_ * dt) * area_sum.value();
   reference_moment_ = (p_ref_ * dt) * moment_sum.value();
   x_wall_.resize(surface.x.size());

@@ -40,21 +40,23 @@ Verdict check_finite(const char* name, const char* what, const std::vector<Vec3>
   return {};
 }
 Verdict check_distinct(const char* name, std::vector<int64_t> ids) {
-  std::sort(ids.begin(), ids.end());
+  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice != ids.end()) return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, *twice)};
   return {};
 }
 
-/// FNV-1a, 64 bit
-uint64_t hash_bytes(uint64_t h, const void* data, size_t bytes) {
-  const auto* byte = static_cast<const unsigned char*>(data);
-  for (size_t i = 0; i < bytes; ++i) h = (h ^ byte[i]) * 1099511628211ull;
-  return h;
-}
+/// FNV-1a on words of 64 bits, the last one filled up with zeros
 template <class T>
 uint64_t hash(uint64_t h, const std::vector<T>& a) {
-  return hash_bytes(h, a.data(), a.size() * sizeof(T));
+  const size_t bytes = a.size() * sizeof(T);
+  const auto* data = reinterpret_cast<const char*>(a.data());
+  for (size_t i = 0; i < bytes; i += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, data + i, std::min<size_t>(8, bytes - i));
+    h = (h ^ word) * 1099511628211ull;
+  }
+  return h;
 }
 
 void put(double (&to)[3], const Vec3& from) {

@@ -1,8 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 if(TARGET bw_coupling)
   add_executable(coupled_dummy coupled/dummy.cpp coupled/solid.cpp coupled/fluid.cpp)
+  add_executable(coupled_piston coupled/piston.cpp)
   target_link_libraries(coupled_dummy PRIVATE bw_coupling)
+  target_link_libraries(coupled_piston PRIVATE bw_coupling)
   foreach(group exchange messages accidents starts)
     add_test(NAME coupled_${group} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/pairs.py $<TARGET_FILE_DIR:coupled_dummy> ${group})
+  endforeach()
+  foreach(scheme fluid_first box1)
+    set(pair -n 1 $<TARGET_FILE:coupled_piston>)
+    add_test(NAME coupled_order_${scheme} COMMAND mpirun ${pair} solid ${scheme} : ${pair} fluid ${scheme})
+    set_tests_properties(coupled_order_${scheme} PROPERTIES ENVIRONMENT
+      "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_hwloc_base_binding_policy=none;OMPI_MCA_mpi_yield_when_idle=1;OMP_WAIT_POLICY=passive")
   endforeach()
 endif()
