@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "coupling/handshake.h"
-#include "coupling/history.h"
+#include "coupling/ledger_table.h"
 
 namespace bw::coupling {
 
@@ -15,10 +15,8 @@ SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hell
     : channel_(channel), case_(cs), predictor_(cs.kind()), ledger_(cs.reference_pressure) {
   t_end_ = shake_hands(channel, cs, hello);
   t_last_ = hello.t0;
-  if (channel.leader() && !history_path.empty()) history_ = std::make_unique<History>(history_path);
+  if (channel.leader() && !history_path.empty()) history_.emplace(open_ledger_table(history_path));
 }
-
-SolidSide::~SolidSide() = default;
 
 void SolidSide::send(Window window, const WetSurface& surface) {
   window.index = next_window_++;
@@ -110,7 +108,7 @@ void SolidSide::end_window(std::span<const Vec3> x_end) {
   channel_.set_place(window_.index, t_last_);
   if (!channel_.leader()) return;
   if (const auto lost = ledger_.close(x_end)) channel_.fail(exit_ledger, *lost);
-  if (history_) history_->write(ledger_.row(), waited_);
+  if (history_) write_row(*history_, ledger_.row(), waited_);
 }
 
 void SolidSide::finish(const std::string& reason) {

@@ -10,10 +10,11 @@
 // until t >= side.t_end() or side.stop_asked(); then side.finish(). Collective over the solid's ranks: the leader
 // exchanges and its surface counts, all ranks get the loads.
 #pragma once
-#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "common/io/csv.h"
 #include "coupling/channel.h"
 #include "coupling/ledger.h"
 #include "coupling/messages.h"
@@ -22,13 +23,10 @@
 
 namespace bw::coupling {
 
-class History;
-
 class SolidSide {
  public:
   /// Says HELLO and checks the answer. Rows go to history_path (leader; empty: none).
   SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path);
-  ~SolidSide();
 
   /// s; the smaller of the two programs' ends.
   double t_end() const { return t_end_; }
@@ -65,7 +63,7 @@ class SolidSide {
   double dt_usual_ = 0;  // last window that was not clipped
   double t_last_ = 0;    // s, where the books are closed
   double waited_ = 0;    // s, for the last LOAD
-  std::unique_ptr<History> history_;
+  std::optional<History> history_;
 };
 
 }  // namespace bw::coupling
