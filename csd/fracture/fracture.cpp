@@ -54,12 +54,13 @@ double Fracture::selection(const Mesh& mesh, const Topology& topology, std::span
   return sum / 8;
 }
 
-bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, std::span<const Sym3> sigma,
-                       std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed) {
+bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
+                       const std::function<Sym3(ElemId)>& sigma, std::span<const double> fail,
+                       std::vector<NodeSplit>& splits, std::vector<ElemId>& changed) {
   splits.clear();
   changed.clear();
   const int64_t elems = mesh.elem_count();
-  BW_CHECK(int64_t(x.size()) == mesh.node_count() && int64_t(sigma.size()) == elems && int64_t(fail.size()) == elems);
+  BW_CHECK(int64_t(x.size()) == mesh.node_count() && int64_t(fail.size()) == elems);
   // a smoothed value is a mean of raw ones, so it reaches 1 only in the one-ring of an element that does
   if (parallel_max(elems, 0.0, [&](int64_t e) { return fail[size_t(e)]; }) < 1) {
     waiting_ = 0;
@@ -90,25 +91,30 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, 
         consider(e);
       }
   }
+  std::vector<ElemId> around;  // elements whose value an opened face changed
   while (!worst.empty()) {
     const auto [value, gid, e] = worst.top();
     worst.pop();
     if (done_step_[e] == step_ || selection(mesh, topology, fail, e) != value)
       continue;  // done, or listed again with its new value
     done_step_[e] = step_;
-    const int side = choose_face(mesh, topology, e, x, sigma[size_t(e.value)]);
+    const int side = choose_face(mesh, topology, e, x, sigma(e));
     if (side < 0) {
       ++waiting_;
       continue;
     }
     const size_t first = splits.size();
     if (detach_face(mesh, topology, {e, side}, splits, changed) > 0) ++opened_;
-    for (size_t i = first; i < splits.size(); ++i)
-      for (const NodeId n : {splits[i].parent, splits[i].child}) forget(n);
     if (!input_.is_smoothed) continue;
+    around.clear();
     for (size_t i = first; i < splits.size(); ++i)
-      for (const NodeId n : {splits[i].parent, splits[i].child})
-        for (const ElemId around : topology.elements(n)) consider(around);
+      for (const NodeId n : {splits[i].parent, splits[i].child}) {
+        forget(n);
+        for (const ElemId owner : topology.elements(n)) around.push_back(owner);
+      }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    for (const ElemId owner : around) consider(owner);
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());

@@ -2,6 +2,7 @@
 // Which elements break, and in which order their faces open.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,10 +37,11 @@ class Fracture {
 
   /// One step: broken elements, the worst first (ties: lowest elem_gid), open one face each, eq (16). Failure values
   /// are taken anew around every opened face, for its nodes now average over fewer elements. An element without a
-  /// joined face in tension waits. x: current positions [m] of the nodes; sigma: mean Cauchy stress [Pa] and fail:
-  /// failure value, per element. Mesh and topology are changed; splits: in order, to be passed to State::append_copies;
-  /// changed: elements with new nodes, ascending. Returns true if there are any. The same for any number of threads.
-  bool advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, std::span<const Sym3> sigma,
+  /// joined face in tension waits. x: current positions [m] of the nodes; sigma: mean Cauchy stress [Pa] of an element,
+  /// asked for broken elements only; fail: failure value of each element. Mesh and topology are changed; splits: in
+  /// order, to be passed to State::append_copies; changed: elements with new nodes, ascending. Returns true if there
+  /// are any. The same for any number of threads.
+  bool advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, const std::function<Sym3(ElemId)>& sigma,
                std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed);
 
   /// Failure value by which elements are selected: smoothed, or as given.

@@ -51,7 +51,8 @@ Storm storm(Mesh mesh, int steps, bool is_checked) {
     std::vector<NodeSplit> splits;
     std::vector<ElemId> changed;
     const auto start = std::chrono::steady_clock::now();
-    fracture.advance(m, t, x, sigma, fail, splits, changed);
+    fracture.advance(
+        m, t, x, [&](ElemId e) { return sigma[size_t(e.value)]; }, fail, splits, changed);
     s.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const NodeSplit& split : splits) {
       EXPECT_EQ(size_t(split.child.value), x.size());

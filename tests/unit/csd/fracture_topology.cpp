@@ -52,7 +52,7 @@ TEST(FractureTopology, a_TwoHexesPulledApart) {
   Mesh m = box(2, 1, 1);
   Topology t(m);
   Fracture fracture({}, m);
-  const std::vector<Sym3> sigma(2, Sym3{1e9, 0, 0, 0, 0, 0});
+  const auto sigma = [](ElemId) { return Sym3{1e9, 0, 0, 0, 0, 0}; };
   const std::vector<double> fail(2, 1.5);
   std::vector<NodeSplit> splits;
   std::vector<ElemId> changed;
@@ -185,7 +185,7 @@ TEST(FractureTopology, NothingOpensUnderCompression) {
   Mesh m = box(3, 3, 3);
   Topology t(m);
   Fracture fracture({}, m);
-  const std::vector<Sym3> sigma(27, Sym3{-1e10, -1e10, -1e9, 0, 0, 0});
+  const auto sigma = [](ElemId) { return Sym3{-1e10, -1e10, -1e9, 0, 0, 0}; };
   const std::vector<double> fail(27, 2.0);
   std::vector<NodeSplit> splits;
   std::vector<ElemId> changed;
@@ -217,7 +217,7 @@ TEST(FractureTopology, f_FarApartFailuresCommute) {
     input.is_smoothed = false;
     Fracture fracture(input, m);
     const int a = 1 + 9 * 2 + 45 * 2, b = 7 + 9 * 2 + 45 * 2;
-    std::vector<Sym3> sigma(225, Sym3{1e9, 0, 0, 0, 0, 0});
+    const auto sigma = [](ElemId) { return Sym3{1e9, 0, 0, 0, 0, 0}; };
     std::vector<double> fail(225, 0.0);
     fail[size_t(a)] = is_swapped ? 1.2 : 1.1;
     fail[size_t(b)] = is_swapped ? 1.1 : 1.2;
@@ -255,7 +255,8 @@ TEST(FractureTopology, SmoothingIsTheMeanOfNodalMeans) {
   std::vector<NodeSplit> splits;
   std::vector<ElemId> changed;
   // four nodes of element 0 see 1, four see (1 + 3) / 2
-  smooth.advance(grown, other, positions(m), std::vector<Sym3>(2), fail, splits, changed);
+  smooth.advance(
+      grown, other, positions(m), [](ElemId) { return Sym3{}; }, fail, splits, changed);
   EXPECT_DOUBLE_EQ(smooth.selection(m, t, fail, ElemId(0)), 1.5);
   EXPECT_DOUBLE_EQ(smooth.selection(m, t, fail, ElemId(1)), 2.5);
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/fragments/fragments.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "common/parallel/loop.h"
+#include "csd/mesh/hex.h"
+
+namespace bw::csd {
+
+Field<ElemId, ElemId> pieces_by_nodes(const Mesh& mesh) {
+  std::vector<int32_t> root(size_t(mesh.node_count()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int32_t n) {
+    while (root[size_t(n)] != n) n = root[size_t(n)] = root[size_t(root[size_t(n)])];
+    return n;
+  };
+  for (const auto& h : mesh.hex) {
+    int32_t p = find(h[0]);
+    for (size_t a = 1; a < 8; ++a) {
+      const int32_t q = find(h[a]);
+      if (p == q) continue;
+      root[size_t(std::max(p, q))] = std::min(p, q);
+      p = std::min(p, q);
+    }
+  }
+  std::vector<ElemId> lowest(root.size());
+  Field<ElemId, ElemId> piece(size_t(mesh.elem_count()));
+  for (int32_t i = 0; i < mesh.elem_count(); ++i) {
+    const ElemId e(i);
+    ElemId& low = lowest[size_t(find(mesh.hex[e][0]))];
+    if (!low.valid()) low = e;
+    piece[e] = low;
+  }
+  return piece;
+}
+
+Fragments::Fragments(const Mesh& mesh, double t)
+    : volume_(size_t(mesh.elem_count())), label_(size_t(mesh.elem_count()), -1) {
+  parallel_for(mesh.elem_count(),
+               [&](int64_t e) { volume_[ElemId(e)] = hex_volume(corners(mesh.hex[ElemId(e)], mesh.X)).volume; });
+  relabel(mesh, t);
+}
+
+bool Fragments::relabel(const Mesh& mesh, double t) {
+  const auto piece = pieces_by_nodes(mesh);
+  struct Part {
+    int32_t old;  // label before
+    double volume = 0;
+    int64_t gid = std::numeric_limits<int64_t>::max();  // lowest
+  };
+  std::map<int32_t, Part> parts;  // by lowest element
+  for (int32_t i = 0; i < mesh.elem_count(); ++i) {
+    const ElemId e(i);
+    Part& part = parts.try_emplace(piece[e].value, Part{label_[e]}).first->second;
+    part.volume += volume_[e];
+    part.gid = std::min(part.gid, mesh.elem_gid[e]);
+  }
+  if (parts.size() == known_.size()) return false;
+  std::vector<const Part*> heir(known_.size(), nullptr);  // of each fragment so far
+  std::vector<std::pair<int64_t, int32_t>> order;         // (lowest gid, part)
+  for (const auto& [first, part] : parts) {
+    order.push_back({part.gid, first});
+    if (part.old < 0) continue;
+    const Part*& best = heir[size_t(part.old)];
+    if (!best || part.volume > best->volume || (part.volume == best->volume && part.gid < best->gid)) best = &part;
+  }
+  std::sort(order.begin(), order.end());
+  std::map<int32_t, int32_t> label;
+  const auto before = known_;
+  for (const auto& [gid, first] : order) {
+    const Part& part = parts.at(first);
+    if (part.old >= 0 && heir[size_t(part.old)] == &part) {
+      label[first] = part.old;
+      continue;
+    }
+    label[first] = int32_t(known_.size());
+    known_.push_back({next_id_++, part.old < 0 ? -1 : before[size_t(part.old)].id, t});
+  }
+  for (int32_t e = 0; e < mesh.elem_count(); ++e) label_[ElemId(e)] = label.at(piece[ElemId(e)].value);
+  return true;
+}
+
+std::vector<Fragment> Fragments::table(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v,
+                                       const Field<double, NodeId>& m, std::span<const double> eqps) const {
+  std::vector<Fragment> rows(known_.size());
+  std::vector<double> reference(rows.size(), 0.0);
+  std::vector<int32_t> owner(size_t(mesh.node_count()), -1);
+  for (size_t k = 0; k < rows.size(); ++k) {
+    rows[k].id = known_[k].id;
+    rows[k].parent = known_[k].parent;
+    rows[k].birth = known_[k].birth;
+  }
+  for (int32_t i = 0; i < mesh.elem_count(); ++i) {
+    const ElemId e(i);
+    const size_t k = size_t(label_[e]);
+    Fragment& row = rows[k];
+    row.body = mesh.body[e];
+    ++row.elements;
+    row.volume += hex_volume(corners(mesh.hex[e], x)).volume;
+    row.eqps += volume_[e] * eqps[size_t(i)];
+    reference[k] += volume_[e];
+    for (const NodeId n : mesh.hex[e]) owner[size_t(n.value)] = int32_t(k);
+  }
+  const auto for_nodes = [&](const auto& add) {
+    for (int32_t n = 0; n < mesh.node_count(); ++n)
+      if (owner[size_t(n)] >= 0) add(rows[size_t(owner[size_t(n)])], NodeId(n), size_t(owner[size_t(n)]));
+  };
+  for_nodes([&](Fragment& row, NodeId n, size_t) {
+    row.mass += m[n];
+    row.centroid += m[n] * x[n];
+    row.velocity += m[n] * v[n];
+    row.kinetic_energy += 0.5 * m[n] * dot(v[n], v[n]);
+    for (int d = 0; d < 3; ++d) {
+      row.lower[d] = std::min(row.lower[d], x[n][d]);
+      row.upper[d] = std::max(row.upper[d], x[n][d]);
+    }
+  });
+  for (size_t k = 0; k < rows.size(); ++k) {
+    rows[k].centroid = rows[k].centroid / rows[k].mass;
+    rows[k].velocity = rows[k].velocity / rows[k].mass;
+    rows[k].eqps /= reference[k];
+  }
+  std::vector<Mat3> inertia(rows.size());
+  for_nodes([&](Fragment& row, NodeId n, size_t k) {
+    const Vec3 r = x[n] - row.centroid;
+    row.angular_momentum += m[n] * cross(r, v[n] - row.velocity);
+    const double square = dot(r, r);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) inertia[k](i, j) += m[n] * ((i == j ? square : 0.0) - r[i] * r[j]);
+  });
+  for (size_t k = 0; k < rows.size(); ++k)
+    if (det(inertia[k]) > 0) rows[k].spin = inverse(inertia[k]) * rows[k].angular_momentum;
+  return rows;
+}
+
+}  // namespace bw::csd
