@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 
 #include "common/math/random.h"
@@ -258,6 +259,35 @@ TEST(Keys, errors_name_place_key_and_expectation) {
 TEST(Keys, a_file_that_is_none) {
   EXPECT_THROW(Keys::read_file("/nowhere/case.toml"), InputError);
   EXPECT_THROW(Keys::read_file("/tmp"), InputError);
+}
+
+TEST(Keys, places_for_errors_found_later) {
+  const std::string path = testing::TempDir() + "bw_case.toml";
+  std::ofstream(path) << "a = 1\n[t]\nb = 2\n";
+  Keys k = Keys::read_file(path);
+  int a = 0;
+  k.optional("a", a, "");
+  EXPECT_EQ(k.where("a"), path + ":1: a");
+  EXPECT_EQ(k.where("absent"), path + ": absent");
+  EXPECT_TRUE(k.has("t"));
+  EXPECT_FALSE(k.has("u"));
+  EXPECT_EQ(k.resolve_path("mesh/x.msh"), testing::TempDir() + "mesh/x.msh");
+  EXPECT_EQ(k.resolve_path("/mesh/x.msh"), "/mesh/x.msh");
+  struct Table {
+    int b = 0, c = 0;
+    void describe(Keys& t) {
+      t.required("b", b, "");
+      t.optional("c", c, "");
+      t.expect(c > 0, "c", "something above 0");
+    }
+  } table;
+  try {
+    k.table("t", table, "");
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.what(), path + ":2: t.c: expected something above 0");  // the table's line, as c is absent
+  }
+  EXPECT_THROW(k.fail("a", "not so"), InputError);
 }
 
 TEST(Keys, endless_names_are_refused) {
