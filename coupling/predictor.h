@@ -3,11 +3,10 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "coupling/case.h"
-#include "coupling/surface.h"
+#include "coupling/node_places.h"
 
 namespace bw::coupling {
 
@@ -25,13 +24,13 @@ class WallPredictor {
     const double half_ratio = dt_last_ > 0 ? 0.5 * std::clamp(dt_next / dt_last_, 0.0, 2.0) : 0;
     const bool same = surface.topo_version == topo_version_ && v.size() == v_last_.size();
     if (scheme_ == Scheme::fluid_first && half_ratio > 0) {
-      const Places now = same ? Places{} : Places(surface.node_id);
+      const NodePlaces now = same ? NodePlaces{} : NodePlaces(surface);
       for (size_t i = 0; i < v.size(); ++i) {
-        const int64_t old = same ? int64_t(i) : ancestor(surface, i, now);
+        const int64_t old = same ? int64_t(i) : places_.find_or_ancestor(surface, i, now);
         if (old >= 0) v[i] += half_ratio * (surface.v[i] - v_last_[size_t(old)]);
       }
     }
-    if (!same) places_ = Places(surface.node_id);
+    if (!same) places_ = NodePlaces(surface);
     topo_version_ = surface.topo_version;
     v_last_ = surface.v;
     return v;
@@ -41,42 +40,9 @@ class WallPredictor {
   void window_lasted(double dt) { dt_last_ = dt; }
 
  private:
-  /// Where an id stands in a list that is often sorted, and often the list before with a few ids more.
-  class Places {
-   public:
-    Places() = default;
-    explicit Places(const std::vector<int64_t>& ids) {
-      for (size_t i = 0; i < ids.size(); ++i) sorted_.push_back({ids[i], int64_t(i)});
-      if (!std::is_sorted(sorted_.begin(), sorted_.end())) std::sort(sorted_.begin(), sorted_.end());
-    }
-    int64_t find(int64_t id) const {
-      if (++hint_ >= sorted_.size() || sorted_[hint_].first != id)
-        hint_ = size_t(std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, int64_t(-1)}) - sorted_.begin());
-      return hint_ < sorted_.size() && sorted_[hint_].first == id ? sorted_[hint_].second : -1;
-    }
-
-   private:
-    std::vector<std::pair<int64_t, int64_t>> sorted_;  // id, place
-    mutable size_t hint_ = 0;
-  };
-
-  /// Place in the last surface of node i or of its nearest ancestor; -1: none. Parents may have been split in the same
-  /// window.
-  int64_t ancestor(const WetSurface& surface, size_t i, const Places& now) const {
-    int64_t id = surface.node_id[i], at = int64_t(i);
-    for (size_t steps = 0; steps <= surface.node_id.size(); ++steps) {
-      if (const int64_t old = places_.find(id); old >= 0) return old;
-      if (at < 0) return -1;  // an ancestor that is not wet, nor was it
-      id = surface.node_parent[size_t(at)];
-      if (id < 0) return -1;
-      at = now.find(id);
-    }
-    return -1;
-  }
-
   Scheme scheme_;
   int64_t topo_version_ = -1;
-  Places places_;             // of the nodes of v_last_
+  NodePlaces places_;         // of the nodes of v_last_
   std::vector<Vec3> v_last_;  // of the last predict()
   double dt_last_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "coupling/fluid_side.h"
 #include "coupling/join.h"
 #include "coupling/solid_side.h"
+#include "coupling/wall_path.h"
 
 namespace {
 
@@ -114,18 +115,17 @@ int run_solid(Channel& channel, const CouplingCase& cs) {
 
 int run_fluid(Channel& channel, const CouplingCase& cs) {
   FluidSide side(channel, cs, {.program = "gas", .version = "1", .lower = {-1, 0, 0}, .upper = {1, 1, 1}});
-  double wall = 0;
+  WallPath path;
   while (side.receive()) {
     const WetSurface& wet = side.surface();
     const Window& window = side.window();
-    const double x = wet.x[0].x, v = wet.v[0].x, dt = window.t1_max - window.t0;
-    if (side.topology_changed() || !window.mean_pressure) wall = x;
-    const double end = x + dt * v;
+    path.begin(window, wet);
+    const double dt = window.t1_max - window.t0, from = volume0 + path.x()[0].x, to = volume0 + path.x_end(dt)[0].x;
     Loads loads;
     loads.t1 = window.t1_max;
-    loads.p = {window.mean_pressure ? mean_pressure(volume0 + wall, volume0 + end) : gas_pressure(volume0 + end)};
-    loads.totals = wall_totals(wet, loads, std::vector<Vec3>(4, {(end - wall) / dt, 0, 0}), window);
-    wall = end;
+    loads.p = {window.mean_pressure ? mean_pressure(from, to) : gas_pressure(to)};
+    loads.totals = wall_totals(wet, loads, path.velocity(dt), window);
+    path.end(dt);
     side.send(loads);
   }
   return 0;
