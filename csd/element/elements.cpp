@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/element/elements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/app/error.h"
+#include "common/parallel/loop.h"
+#include "csd/element/lanes.h"
+#include "csd/element/q1p0.h"
+#include "csd/element/stable_step.h"
+
+namespace bw::csd {
+
+int Elements::body_of(SlotId slot) const {
+  const auto& first = blocks.first_block;
+  return int(std::upper_bound(first.begin(), first.end(), slot / lanes) - first.begin()) - 1;
+}
+
+namespace {
+
+template <class M>
+double* history_of(State& s, const Elements& el, int body, int block) {
+  return s.history[size_t(body)].data() + size_t(block - el.blocks.first_block[size_t(body)]) * 8 * M::components * lanes;
+}
+
+/// What bulk viscosity does to an element.
+struct Viscous {
+  Pack stress;  ///< Pa, added to sigma_m
+  Pack power;   ///< W, spent in the element
+  Pack beta;    ///< s, viscosity over stiffness: damping matrix <= beta K
+};
+[[gnu::noinline]] Viscous viscous_stress(const BulkViscosity& c, const Elastic& m, Pack V0, Pack volume, Pack before, double dt) {
+  const Pack rate = min((volume - before) / (volume * Pack(dt)), Pack(0));  // of the volume, 1/s
+  Pack h;
+  for (int l = 0; l < Pack::size; ++l) h.set(l, std::cbrt(volume[l]));
+  const Pack density = Pack(m.density) * V0 / volume;
+  const Pack eta = density * h * (Pack(c.linear * m.sound_speed()) - Pack(c.quadratic * c.quadratic) * h * rate);
+  const Pack stress = eta * rate;
+  return {stress, stress * rate * volume, eta / m.volumetric.stiffness(volume / V0)};
+}
+
+/// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega/2:
+/// the omega^2 of an undamped element with the same limit.
+Pack damped_omega2(Pack omega2, Pack beta) {
+  const Pack xi = Pack(0.5) * beta * sqrt(omega2), grown = sqrt(Pack(1) + xi * xi) + xi;
+  return omega2 * grown * grown;
+}
+
+/// Forces of one block; returns the power of viscosity.
+template <class M, class Mean>
+[[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of, State& s) {
+  double* history = history_of<M>(s, el, body, block);
+  const int32_t* nodes = el.blocks.nodes_of(block);
+  const int used = el.blocks.used[size_t(block)];
+  double power = 0;
+  for (int l = 0; l < lanes; l += Pack::size) {
+    const SlotId slot(block * lanes + l);
+    const Corners<Pack> x = gather(s.x.data(), nodes + l);
+    const Pack V0 = Pack::load(&s.V0[slot]);
+    Viscous viscous{Pack(0), Pack(0), Pack(0)};
+    const auto r = internal_force<Pack>(material, x, V0, history + l,
+                                        [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); });
+    scatter_add(r.f, nodes + l, std::min(used - l, Pack::size), s.f.data());
+    const Pack J_bar = r.volume / V0;
+    Pack omega2 = centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
+    if constexpr (Mean::viscous) {
+      omega2 = damped_omega2(omega2, viscous.beta);
+      for (int i = 0; i < std::min(used - l, Pack::size); ++i) power += viscous.power[i];
+    }
+    omega2.store(&s.omega2[slot]);
+    r.volume.store(&s.volume[slot]);
+    r.collapsed.store(&s.collapsed[slot]);
+  }
+  return power;
+}
+
+/// Where the mean stress comes from: U' alone, the usual case; or anything that MeanStress describes.
+struct Plain {
+  static constexpr bool viscous = false;
+  template <class M>
+  Pack operator()(const M& m, SlotId, Pack J_bar, Pack, Viscous&) const {
+    return m.volumetric.mean_stress(J_bar);
+  }
+};
+struct General {
+  static constexpr bool viscous = true;
+  const MeanStress& how;
+  const Field<double, SlotId>& volume_before;
+  template <class M>
+  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack V0, Viscous& q) const {
+    const Pack sigma = how.given ? Pack::load(&(*how.given)[slot]) : m.volumetric.mean_stress(J_bar);
+    if (how.viscosity.on() && how.dt > 0)
+      q = viscous_stress(how.viscosity, m, V0, J_bar * V0, Pack::load(&volume_before[slot]), how.dt);
+    return sigma + q.stress;
+  }
+};
+
+/// Sum of the blocks' powers, in block order.
+template <class Mean>
+double all_forces(const Elements& el, const Mean& mean_of, State& s) {
+  std::vector<double> power(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
+  for_coloured_blocks(el.blocks, [&](int block, int body) {
+    std::visit(
+        [&](const auto& material) {
+          const double p = block_force(el, material, body, block, mean_of, s);
+          if constexpr (Mean::viscous) power[size_t(block)] = p;
+        },
+        el.materials[size_t(body)]);
+  });
+  double sum = 0;
+  for (double p : power) sum += p;
+  return sum;
+}
+
+}  // namespace
+
+double internal_force(const Elements& el, const MeanStress& how, State& s) {
+  parallel_for(int64_t(s.f.size()), [&](int64_t n) { s.f[NodeId(n)] = {}; });
+  if (!how.given && !how.viscosity.on()) return all_forces(el, Plain{}, s);
+  return all_forces(el, General{how, s.volume}, s);
+}
+
+namespace {
+
+[[noreturn]] void refuse(const Mesh& mesh, ElemId e, const char* what, double value) {
+  Vec3 c;
+  for (NodeId n : mesh.hex[e]) c += 0.125 * mesh.X[n];
+  throw InputError(fmt::format("mesh: element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m has {} {:.3g} m^3: its nodes are "
+                               "in the wrong order or it is degenerate",
+                               mesh.elem_gid[e], mesh.body[e], c.x, c.y, c.z, what, value));
+}
+
+/// Reference volume and history of one element in its lane.
+template <class M>
+void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, State& s) {
+  const Modes<double> modes = modes_of(corners(mesh, e));
+  const Columns<double> g = columns_of(modes);
+  s.V0[slot] = s.volume[slot] = volume_of(modes);
+  if (!(s.V0[slot] > 0)) refuse(mesh, e, "volume", s.V0[slot]);
+  for (int i = 0; i < 8; ++i) {
+    const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), Sym3{});
+    if (!(p.det_g > 0)) refuse(mesh, e, "at an integration point a volume (8 det)", 8 * p.det_g);
+    double* at_point = history + i * M::components * lanes;
+    store_sym(at_point, p.metric());
+    for (int c = 6; c < M::components; ++c) at_point[c * lanes] = 0;
+  }
+}
+
+}  // namespace
+
+void start(const Mesh& mesh, const Elements& el, State& s) {
+  s.resize(size_t(mesh.node_count()), size_t(el.blocks.slot_count()));
+  s.x = mesh.X;
+  s.history.clear();
+  for (int body = 0; body < int(el.materials.size()); ++body) {
+    const int first = el.blocks.first_block[size_t(body)], last = el.blocks.first_block[size_t(body) + 1];
+    std::visit(
+        [&]<class M>(const M&) {
+          s.history.emplace_back(size_t(last - first) * 8 * M::components * lanes, 0.0);
+          for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1))
+            start_element<M>(mesh, el.blocks.elem[slot], slot, history_of<M>(s, el, body, slot / lanes) + slot % lanes, s);
+        },
+        el.materials[size_t(body)]);
+  }
+  sum_masses(mesh, el, s);
+}
+
+void sum_masses(const Mesh& mesh, const Elements& el, State& s) {
+  for (double& m : s.m) m = 0;
+  for (int e = 0; e < mesh.elem_count(); ++e) {
+    const ElemId elem{e};
+    const double density = std::visit([](const auto& m) { return m.density; },
+                                      el.materials[size_t(mesh.body[elem])]);
+    const auto share = row_sums(corners(mesh, elem));
+    for (int a = 0; a < 8; ++a) s.m[mesh.hex[elem][size_t(a)]] += density * share[size_t(a)];
+  }
+}
+
+}  // namespace bw::csd

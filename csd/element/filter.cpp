@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/element/filter.h"
+
+#include <cmath>
+
+#include "common/parallel/loop.h"
+#include "csd/element/lanes.h"
+
+namespace bw::csd {
+namespace {
+
+/// v_e / V_e at s.x.
+void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J) {
+  for_blocks(el.blocks, [&](int block, int) {
+    for (int l = 0; l < lanes; l += Pack::size) {
+      const SlotId slot(block * lanes + l);
+      const Pack v = volume_of(modes_of(gather(s.x.data(), el.blocks.nodes_of(block) + l)));
+      (v / Pack::load(&s.V0[slot])).store(&J[slot]);
+    }
+  });
+}
+
+/// U'(J) of each element's material [Pa].
+void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<double, SlotId>& sigma) {
+  for_blocks(el.blocks, [&](int block, int body) {
+    const Volumetric& U = std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(body)]);
+    for (int l = 0; l < lanes; l += Pack::size) {
+      const SlotId slot(block * lanes + l);
+      U.mean_stress(Pack::load(&J[slot])).store(&sigma[slot]);
+    }
+  });
+}
+
+/// Nodal sums of V_e a_e.
+void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>* a, Field<double, NodeId>& sum) {
+  parallel_for(int64_t(sum.size()), [&](int64_t n) { sum[NodeId(n)] = 0; });
+  for_coloured_blocks(el.blocks, [&](int block, int) {
+    const int32_t* nodes = el.blocks.nodes_of(block);
+    for (int l = 0; l < el.blocks.used[size_t(block)]; ++l) {
+      const SlotId slot(block * lanes + l);
+      const double Va = s.V0[slot] * (a ? (*a)[slot] : 1.0);
+      for (int c = 0; c < 8; ++c) sum[NodeId(nodes[c * lanes + l])] += Va;
+    }
+  });
+}
+
+/// Visits the elements (not the padding) in order.
+template <class Value>
+double element_sum(const Elements& el, const Value& value) {
+  return parallel_sum(int64_t(el.blocks.slot.size()), [&](int64_t e) { return value(el.blocks.slot[ElemId(e)]); });
+}
+const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
+  return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(el.body_of(slot))]);
+}
+
+}  // namespace
+
+PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const State& s)
+    : self_adjoint_(cs.kind == "self_adjoint"), strength_(cs.strength) {
+  const size_t slots = size_t(el.blocks.slot_count());
+  J_.resize(slots), theta_.resize(slots), stress_.resize(slots);
+  renew(el, s);
+}
+
+void PressureFilter::renew(const Elements& el, const State& s) {
+  weight_.resize(s.x.size());
+  sum_.resize(s.x.size());
+  nodal_sums(el, s, nullptr, weight_);
+}
+
+void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
+                             Field<double, SlotId>& out) {
+  nodal_sums(el, s, &a, sum_);
+  for_blocks(el.blocks, [&](int block, int) {
+    const int32_t* nodes = el.blocks.nodes_of(block);
+    for (int l = 0; l < lanes; ++l) {
+      double mean = 0;
+      for (int c = 0; c < 8; ++c) {
+        const NodeId n(nodes[c * lanes + l]);
+        mean += 0.125 * (sum_[n] / weight_[n]);
+      }
+      const SlotId slot(block * lanes + l);
+      out[slot] = (1 - strength) * a[slot] + strength * mean;
+    }
+  });
+}
+
+const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const State& s) {
+  sigma_.resize(J_.size());
+  volume_ratios(el, s, J_);
+  if (self_adjoint_) {
+    average(el, s, J_, strength_, theta_);
+    mean_stresses(el, theta_, stress_);
+    average(el, s, stress_, strength_, sigma_);
+  } else {
+    mean_stresses(el, J_, stress_);
+    average(el, s, stress_, strength_, sigma_);
+    book_work(el, s);
+  }
+  return sigma_;
+}
+
+void PressureFilter::book_work(const Elements& el, const State& s) {
+  const bool first = change_.size() == 0;
+  change_.resize(J_.size()), volume_.resize(J_.size());
+  work_ += element_sum(el, [&](SlotId slot) {
+    const double change = sigma_[slot] - stress_[slot], volume = J_[slot] * s.V0[slot];
+    const double work = first ? 0 : 0.5 * (change + change_[slot]) * (volume - volume_[slot]);
+    change_[slot] = change, volume_[slot] = volume;
+    return work;
+  });
+}
+
+double PressureFilter::energy(const Elements& el, const State& s) const {
+  if (!self_adjoint_ || !sigma_.size()) return work_;
+  return element_sum(el, [&](SlotId slot) {
+    const Volumetric& U = volumetric_of(el, slot);
+    return s.V0[slot] * (U.energy(theta_[slot]) - U.energy(J_[slot]));
+  });
+}
+
+double checkerboard(const Elements& el, const State& s) {
+  PressureFilter whole(FilterCase{"plain", 1.0}, el, s);
+  volume_ratios(el, s, whole.J_);
+  mean_stresses(el, whole.J_, whole.stress_);
+  whole.average(el, s, whole.stress_, 1.0, whole.theta_);
+  const double rough = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
+  const double all = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i]); });
+  return all > 0 ? rough / all : 0;
+}
+
+}  // namespace bw::csd

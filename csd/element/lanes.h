@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Between nodal fields and packs of elements.
+#pragma once
+#include "common/math/pack.h"
+#include "csd/element/hex.h"
+#include "csd/mesh/mesh.h"
+
+namespace bw::csd {
+
+/// Nodal values of the Pack::size elements that start at `nodes`, rows of which are `lanes` apart.
+inline Corners<Pack> gather(const Vec3* x, const int32_t* nodes) {
+  const auto corner = [&](int a) {
+    Vec<Pack> r;
+    for (int l = 0; l < Pack::size; ++l) {
+      const Vec3& from = x[nodes[a * lanes + l]];
+      r.x.set(l, from.x), r.y.set(l, from.y), r.z.set(l, from.z);
+    }
+    return r;
+  };
+  return {{corner(0), corner(1), corner(2), corner(3), corner(4), corner(5), corner(6), corner(7)}};
+}
+inline Corners<double> corners(const Mesh& mesh, ElemId e) {
+  const auto& h = mesh.hex[e];
+  const auto& X = mesh.X;
+  return {{X[h[0]], X[h[1]], X[h[2]], X[h[3]], X[h[4]], X[h[5]], X[h[6]], X[h[7]]}};
+}
+
+/// Adds to nodes of the first `count` lanes.
+inline void scatter_add(const Corners<Pack>& f, const int32_t* nodes, int count, Vec3* out) {
+  for (int a = 0; a < 8; ++a)
+    for (int l = 0; l < count; ++l) {
+      Vec3& to = out[nodes[a * lanes + l]];
+      to.x += f.a[a].x[l], to.y += f.a[a].y[l], to.z += f.a[a].z[l];
+    }
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Q1/P0 mean-dilatation hexahedron: 2x2x2 points for the deviator, one mean stress from v_e / V_e (VALIDATION A.3).
+//   f_a = - sum_g w_g s_g/J . grad N_a - sigma_m dv_e/dx_a        eq (15), internal part
+// is minus the derivative of sum_e V_e U(v_e/V_e) + sum_g W_bar_g, so forces and moments sum to zero.
+#pragma once
+#include "csd/element/hex.h"
+#include "csd/material/concept.h"
+
+namespace bw::csd {
+
+/// J_g / J_bar below which a point is called collapsed: Q1/P0 has no pointwise volume stiffness.
+inline constexpr double collapse_ratio = 0.3;
+
+template <class T>
+struct ElementForce {
+  Corners<T> f;   ///< N, on the nodes: -dE/dx
+  Vec<T> centre[3];  ///< m, dx/dxi_k at the centroid
+  T volume;       ///< m^3, current
+  T collapsed;    ///< > 0: a point has J_g < collapse_ratio J_bar (or is inverted)
+};
+
+/// Collapsed points push back (DESIGN 5b): energy kappa/2 ln^2(r / collapse_ratio) per reference volume for r = J_g/J_bar below
+/// the ratio, continued quadratically in r below a sixth of it so that even an inverted point has a way back. Adds to q
+/// the columns sum_g sigma_g c_k and to sigma_m what J_bar contributes; returns the energy [J]. Rare, so it recomputes.
+template <class T>
+[[gnu::noinline]] T collapse_guard(const Columns<T>& g, const double* history, int components, T J_bar, T volume, T kappa, Columns<T>& q,
+                 T& sigma_m) {
+  T energy(0), back(0);
+  for (int i = 0; i < 8; ++i) {
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const Vec<T> c[3] = {cross(g2, g3), cross(g3, g1), cross(g1, g2)};
+    const T inverse_V0 = sqrt(max(det(load_sym<T>(history + i * components * lanes)), T(0)));
+    const T det_g = dot(g1, c[0]), r = det_g * inverse_V0 / J_bar;
+    const auto active = r < T(collapse_ratio);
+    const T r_log = max(r, T(collapse_ratio / 6)), l = log(r_log * T(1 / collapse_ratio));
+    const T slope = kappa * l / r_log, curvature = kappa * (T(1) - l) / (r_log * r_log), d = r - r_log;
+    const T de_dr = select(active, slope + curvature * d, T(0));  // d is 0 but below the sixth
+    energy += select(active, (T(0.5) * kappa * l * l + slope * d + T(0.5) * curvature * d * d) / inverse_V0, T(0));
+    const T sigma = de_dr / J_bar;  // dE/d(det_g) = de/dr inverse_V0 / J_bar / inverse_V0
+    q.at(0, i) += sigma * c[0], q.at(1, i) += sigma * c[1], q.at(2, i) += sigma * c[2];
+    back += sigma * det_g;  // dE/dJ_bar = -de/dr r / J_bar per point
+  }
+  sigma_m -= back / volume;
+  return energy;
+}
+
+/// Adds sigma_m dv/dx, column by column: sum_g sigma_m c_k.
+template <class T>
+[[gnu::noinline]] void add_mean_stress(const Columns<T>& g, T sigma_m, Columns<T>& q) {
+  for (int i = 0; i < 8; ++i) {
+    q.at(0, i) += sigma_m * cross(g.at(1, i), g.at(2, i));
+    q.at(1, i) += sigma_m * cross(g.at(2, i), g.at(0, i));
+    q.at(2, i) += sigma_m * cross(g.at(0, i), g.at(1, i));
+  }
+}
+
+/// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference volume,
+/// mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
+/// history: [8][M::components][lanes], at this element's lane.
+template <class T, class M, class MeanStress>
+ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
+                               const MeanStress& mean_stress) {
+  const Modes<T> modes = modes_of(x);
+  const Columns<T> g = columns_of(modes);
+  const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
+  const T least_squared = T(collapse_ratio * collapse_ratio) * J_bar * J_bar;
+  T collapsed(0);
+  Columns<T> q{};
+#pragma GCC unroll 1
+  for (int i = 0; i < 8; ++i) {
+    double* at_point = history + i * M::components * lanes;
+    const Point<T> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<T>(at_point));
+    // dev sigma = k dev b^e / J; times c_k: k/J (det_g h_k - t c_k), as b^e c_k = det_g h_k
+    const T k = material.deviator(p, at_point) * p.iso * sqrt(p.iso);
+    const T on_h = k * p.det_g, on_c = sigma_m - k * p.third_trace;
+    q.at(0, i) += on_h * p.h[0] + on_c * p.c[0];
+    q.at(1, i) += on_h * p.h[1] + on_c * p.c[1];
+    q.at(2, i) += on_h * p.h[2] + on_c * p.c[2];
+    collapsed = select((p.J_squared < least_squared) | (p.det_g <= T(0)), T(1), collapsed);
+  }
+  if (any(collapsed > T(0))) [[unlikely]] {
+    T correction(0);
+    collapse_guard(g, history, M::components, J_bar, volume, T(material.volumetric.kappa), q, correction);
+    add_mean_stress(g, correction, q);
+  }
+  return {forces_from_columns(q), {modes.a[0], modes.a[1], modes.a[2]}, volume, collapsed};
+}
+
+}  // namespace bw::csd

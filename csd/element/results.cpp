@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/element/results.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/parallel/loop.h"
+#include "csd/element/q1p0.h"
+
+namespace bw::csd {
+namespace {
+
+template <class M>
+const double* history_of(const Elements& el, const State& s, int body, SlotId slot) {
+  const size_t block = size_t(slot / lanes - el.blocks.first_block[size_t(body)]);
+  return s.history[size_t(body)].data() + block * 8 * M::components * lanes + slot % lanes;
+}
+
+Corners<double> corners_at(const Elements& el, const State& s, SlotId slot) {
+  const int32_t* n = el.blocks.nodes_of(slot / lanes) + slot % lanes;
+  Corners<double> x;
+  for (int a = 0; a < 8; ++a) x.a[a] = s.x[NodeId(n[a * lanes])];
+  return x;
+}
+
+template <class M>
+ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0, const double* history, const double* sigma_m) {
+  const Modes<double> modes = modes_of(x);
+  const Columns<double> g = columns_of(modes);
+  const double volume = volume_of(modes), J_bar = volume / V0;
+  ElementResult r;
+  r.elastic = V0 * material.volumetric.energy(J_bar);
+  bool collapsed = false;
+  for (int i = 0; i < 8; ++i) {
+    double at_point[M::components * lanes];  // the deviator commits a history: into a copy
+    std::copy_n(history + i * M::components * lanes, (M::components - 1) * lanes + 1, at_point);
+    const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<double>(at_point));
+    const double k = material.deviator(p, at_point), J = 1 / (p.iso * std::sqrt(p.iso)), point_V0 = p.det_g / J;
+    r.sigma = r.sigma + (p.det_g * k / J) * p.dev_b;
+    const double e = k / material.mu, q = e * e * contract(p.dev_b, p.dev_b), det_s = e * e * e * det(p.dev_b);
+    double third_trace = p.iso * p.third_trace;
+    if constexpr (M::plastic) {
+      third_trace = isochoric_third_trace(q, det_s, third_trace);
+      const double eqps = at_point[6 * lanes];
+      r.eqps += 0.125 * eqps;
+      r.eqps_max = std::max(r.eqps_max, eqps);
+      r.plastic += point_V0 * material.plastic_work(eqps);
+    }
+    r.elastic += point_V0 * 1.5 * material.mu * (third_trace - 1);
+    collapsed |= p.J_squared < collapse_ratio * collapse_ratio * J_bar * J_bar || p.det_g <= 0;
+  }
+  const double mean = sigma_m ? *sigma_m : material.volumetric.mean_stress(J_bar);
+  r.sigma = (1 / volume) * r.sigma + Sym3{mean, mean, mean, 0, 0, 0};
+  if (collapsed) {
+    Columns<double> unused{};
+    double unused_stress = 0;
+    r.collapse = collapse_guard(g, history, M::components, J_bar, volume, material.volumetric.kappa, unused, unused_stress);
+  }
+  return r;
+}
+
+}  // namespace
+
+double von_mises(const Sym3& sigma) {
+  const Sym3 s = deviator(sigma);
+  return std::sqrt(1.5 * contract(s, s));
+}
+
+ElementResult evaluate(const Elements& el, const State& s, SlotId slot, const Field<double, SlotId>* sigma_m) {
+  const int body = el.body_of(slot);
+  return std::visit(
+      [&]<class M>(const M& material) {
+        return evaluate_as(material, corners_at(el, s, slot), s.V0[slot], history_of<M>(el, s, body, slot),
+                           sigma_m ? &(*sigma_m)[slot] : nullptr);
+      },
+      el.materials[size_t(body)]);
+}
+
+StoredEnergy stored_energy(const Elements& el, const State& s) {
+  return parallel_reduce(
+      int64_t(el.blocks.slot.size()), StoredEnergy{},
+      [&](int64_t e) {
+        const ElementResult r = evaluate(el, s, el.blocks.slot[ElemId(e)]);
+        return StoredEnergy{r.elastic, r.plastic, r.collapse};
+      },
+      [](const StoredEnergy& a, const StoredEnergy& b) { return a + b; });
+}
+
+double mean_eqps(const Elements& el, const State& s, SlotId slot) {
+  const int body = el.body_of(slot);
+  return std::visit(
+      [&]<class M>(const M&) {
+        double sum = 0;
+        if constexpr (M::plastic)
+          for (int i = 0; i < 8; ++i) sum += history_of<M>(el, s, body, slot)[(i * M::components + 6) * lanes];
+        return 0.125 * sum;
+      },
+      el.materials[size_t(body)]);
+}
+
+}  // namespace bw::csd

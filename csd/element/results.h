@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What elements bear and store, evaluated on demand from positions and history (nothing is committed).
+#pragma once
+#include "csd/element/elements.h"
+
+namespace bw::csd {
+
+/// Means over the current volume, sums over the element.
+struct ElementResult {
+  Sym3 sigma;               ///< Pa, mean Cauchy stress, tension positive
+  double eqps = 0;          ///< mean over the points
+  double eqps_max = 0;      ///< of its points
+  double elastic = 0;       ///< J, V U(J_bar) + sum of W_bar
+  double plastic = 0;       ///< J, spent since the start
+  double collapse = 0;      ///< J, in points that lost most of their volume
+};
+
+double von_mises(const Sym3& sigma);
+
+/// sigma_m of the elements as in the last internal_force: null for U'(v/V) of the material.
+ElementResult evaluate(const Elements& elements, const State& s, SlotId slot, const Field<double, SlotId>* sigma_m = nullptr);
+
+struct StoredEnergy {
+  double elastic = 0, plastic = 0, collapse = 0;
+  friend StoredEnergy operator+(const StoredEnergy& a, const StoredEnergy& b) {
+    return {a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse};
+  }
+};
+/// Of all elements.
+StoredEnergy stored_energy(const Elements& elements, const State& s);
+
+/// Mean eqps of an element's points (cheap: reads the history only).
+double mean_eqps(const Elements& elements, const State& s, SlotId slot);
+
+}  // namespace bw::csd

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Upper bounds of an element's largest eigenfrequency, K u = omega^2 M u, from its actual stiffness at the current
+// geometry and stress; dt <= 2/omega_max. Never below the true value; within 1 % of it
+// for a parallelepiped at rest.
+//
+// The tangent at a point, per current volume, for a displacement gradient H = du/dx with strain e = sym H:
+//   (kappa' + sigma_m) (tr H)^2 + m |dev e|^2 + a |H|^2,  kappa' = J U'' (Volumetric::stiffness), m = 2 mu tr(b_bar)/3 / J,
+// with a = |sigma_m| + 2 |s|/J at most from the stress terms -sigma_m tr(HH) and tr(H s H^T) - 4/3 tr(e) s:e. By Jensen the
+// mean dilatation of Q1/P0 is no stiffer than the pointwise one. In parent coordinates H = G (dx/dxi)^-1, G = du/dxi.
+// Largest value per |G|^2: with the eigenvalues c_i of C = (dx/dxi)^-T (dx/dxi)^-1, shears give at most (m + a) c_max and the
+// normal strains the largest root of det(x - (m + a) diag(c) - l sqrt(c) sqrt(c)^T), l = kappa' + sigma_m - m/3: a cubic in
+// the invariants of C. What remains is a Laplacian of the element's eight nodes with weights det_g x_g at the points.
+#pragma once
+#include <array>
+
+#include "csd/element/hex.h"
+#include "csd/material/concept.h"
+
+namespace bw::csd {
+
+/// Largest root x of that cubic (or an upper bound of it), for columns g_k = dx/dxi_k [m]: Pa/m^2. Newton from above
+/// stays above, since all roots are real. lambda is taken as >= 0.
+template <class T>
+T point_stiffness(const Vec<T>& g1, const Vec<T>& g2, const Vec<T>& g3, T m, T lambda, int iterations) {
+  const Vec<T> c1 = cross(g2, g3), c2 = cross(g3, g1), c3 = cross(g1, g2);
+  const T det_g = dot(g1, c1), s = T(1) / (det_g * det_g);
+  const T I1 = s * (dot(c1, c1) + dot(c2, c2) + dot(c3, c3)), I2 = s * (dot(g1, g1) + dot(g2, g2) + dot(g3, g3));
+  const T l = max(lambda, T(0)), k2 = (m + l) * I1, k1 = m * (m + T(2) * l) * I2, k0 = m * m * (m + T(3) * l) * s;
+  T x = k2;
+  for (int i = 0; i < iterations; ++i) {
+    const T value = x * (x * (x - k2) + k1) - k0, slope = x * (T(3) * x - T(2) * k2) + k1;
+    x = x - max(value, T(0)) / slope;
+  }
+  return x;
+}
+
+/// omega^2 [1/s^2] of the parallelepiped with the element's centroid columns: the part of the bound that is followed in every
+/// step. J_bar = v_e / V_e.
+template <class T>
+T centroid_omega2(const Vec<T> (&g)[3], T J_bar, T bulk, double mu, double density) {
+  const T m = T(2 * mu) / J_bar;
+  return point_stiffness(g[0], g[1], g[2], m, bulk - m * T(1.0 / 3.0), 2) * J_bar * T(1 / density);
+}
+
+/// Symmetric 8x8 matrix, row by row of the lower triangle.
+template <class T>
+struct Sym8 {
+  T a[36];
+  static constexpr int at(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+  T trace() const {
+    T sum(0);
+    for (int i = 0; i < 8; ++i) sum += a[at(i, i)];
+    return sum;
+  }
+  /// (s A)^2
+  Sym8 scaled_square(T s) const {
+    Sym8 r;
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j <= i; ++j) {
+        T sum(0);
+        for (int k = 0; k < 8; ++k) sum += a[at(i, k)] * a[at(k, j)];
+        r.a[at(i, j)] = s * s * sum;
+      }
+    return r;
+  }
+  /// Frobenius' norm and the largest row sum, whichever is less: both bound the largest eigenvalue.
+  T norm_bound() const {
+    T squares(0), row_max(0);
+    for (int i = 0; i < 8; ++i) {
+      T row(0);
+      for (int j = 0; j < 8; ++j) row += abs(a[at(i, j)]), squares += a[at(i, j)] * a[at(i, j)];
+      row_max = max(row_max, row);
+    }
+    return min(row_max, sqrt(squares));
+  }
+};
+
+/// Upper bound of the largest eigenvalue of a positive semi-definite A, at most 3^(1/64) too high for a threefold one: with
+/// A_0 = A, A_(n+1) = (A_n / tr A_n)^2, the spectral radius is tr A_0 sqrt(tr A_1 sqrt(tr A_2 ...)).
+template <class T>
+T largest_eigenvalue_bound(Sym8<T> A) {
+  T traces[5];
+  for (T& t : traces) {
+    t = A.trace();
+    A = A.scaled_square(T(1) / t);
+  }
+  T bound = A.norm_bound();
+  for (int i = 4; i >= 0; --i) bound = traces[i] * sqrt(bound);
+  return bound;
+}
+
+/// Products of shape function gradients at the points, sum_k dN_a/dxi_k dN_b/dxi_k.
+inline constexpr std::array<Sym8<double>, 8> gradient_products = [] {
+  std::array<Sym8<double>, 8> table{};
+  for (int g = 0; g < 8; ++g) {
+    const double at[3] = {g & 1 ? gauss : -gauss, g & 2 ? gauss : -gauss, g & 4 ? gauss : -gauss};
+    double d[8][3]{};
+    for (int a = 0; a < 8; ++a)
+      for (int k = 0; k < 3; ++k) {
+        const int l = (k + 1) % 3, m = (k + 2) % 3;
+        d[a][k] = 0.125 * node_sign[a][k] * (1 + node_sign[a][l] * at[l]) * (1 + node_sign[a][m] * at[m]);
+      }
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b <= a; ++b)
+        table[size_t(g)].a[Sym8<double>::at(a, b)] = d[a][0] * d[b][0] + d[a][1] * d[b][1] + d[a][2] * d[b][2];
+  }
+  return table;
+}();
+
+/// Upper bound of omega^2 [1/s^2] of an element at positions x. mass [kg]: its own share at the nodes; sigma_m [Pa]: the mean
+/// stress it bears. history as for internal_force, not changed.
+template <class T, class M>
+T omega2_bound(const M& material, const Corners<T>& x, T V0, const T (&mass)[8], T sigma_m, const double* history) {
+  const Modes<T> modes = modes_of(x);
+  const Columns<T> g = columns_of(modes);
+  const T bulk = material.volumetric.stiffness(volume_of(modes) / V0) + sigma_m;
+  Sym8<T> A{};
+  for (int i = 0; i < 8; ++i) {
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const Point<T> p(g1, g2, g3, load_sym<T>(history + i * M::components * lanes));
+    const T per_J = T(material.mu) * p.iso * p.iso * sqrt(p.iso);  // mu J^(-2/3) / J
+    const T m = T(2) * per_J * p.third_trace;
+    const T a = abs(sigma_m) + T(2) * per_J * sqrt(contract(p.dev_b, p.dev_b));
+    const T weight = p.det_g * point_stiffness(g1, g2, g3, m + a, bulk - m * T(1.0 / 3.0), 5);
+    for (int k = 0; k < 36; ++k) A.a[k] += T(gradient_products[size_t(i)].a[k]) * weight;
+  }
+  T root[8];
+  for (int a = 0; a < 8; ++a) root[a] = T(1) / sqrt(mass[a]);
+  for (int a = 0; a < 8; ++a)
+    for (int b = 0; b <= a; ++b) A.a[Sym8<T>::at(a, b)] *= root[a] * root[b];
+  return largest_eigenvalue_bound(A);
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+#include <string>
+
+#include "csd/load/conditions/reaction.h"
+#include "csd/load/sets.h"
+#include "csd/load/table.h"
+
+namespace bw::csd {
+
+/// Nodes with a prescribed velocity: value, times a factor by time.
+struct PrescribedVelocity {
+  static constexpr auto name = "velocity";
+  std::string nodes, components = "xyz", place;
+  Vec3 value{};
+  std::optional<Table> factor;
+  Reaction reaction;
+
+  template <class K>
+  void describe(K& k) {
+    k.required("nodes", nodes, "name of the node set");
+    k.required("value", value, dim::velocity, "velocity of the nodes");
+    k.choice("components", components, {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which components are prescribed; the others are free");
+    struct Factor : Table {
+      void describe(K& k) { this->describe_with(k, "factors", dim::none, "on `value`; linear between, constant outside"); }
+    };
+    std::optional<Factor> table;
+    k.table("factor", table, "lets the velocity change in time");
+    if (table) factor = *table;
+    if (!k.is_manual()) place = k.where("nodes");
+  }
+  void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }
+  void before_drift(State& s, double dt) { impose(s, s.t + 0.5 * dt); }
+  void on_force(State& s, double dt) {
+    for (size_t i = 0; i < reaction.nodes.size(); ++i)
+      reaction.take_force(s, i, prescribed(s.f[reaction.nodes[i]], {}), dt);
+  }
+  void after_kick(State& s, double dt) { impose(s, s.t + dt); }
+
+ private:
+  /// The prescribed components from a, the others from b.
+  Vec3 prescribed(const Vec3& a, const Vec3& b) const {
+    const auto has = [&](char c) { return components.find(c) != std::string::npos; };
+    return {has('x') ? a.x : b.x, has('y') ? a.y : b.y, has('z') ? a.z : b.z};
+  }
+  void impose(State& s, double t) {
+    const Vec3 v = (factor ? factor->at(t) : 1.0) * value;
+    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, prescribed(v, s.v[n]));
+  }
+};
+
+}  // namespace bw::csd

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one list of loads. A load: name, describe(keys), select(mesh) once, and
+//   add(mesh, x, m, t, f)   adds its nodal forces [N] at positions x [m], masses m [kg], time t [s].
+#pragma once
+#include <variant>
+
+#include "csd/load/gravity.h"
+#include "csd/load/pressure.h"
+#include "csd/load/pressure_front.h"
+
+namespace bw::csd {
+
+using LoadKind = std::variant<PressureFront, Pressure, Gravity>;
+
+struct LoadCase {
+  LoadKind kind;
+  template <class K>
+  void describe(K& k) {
+    k.pick("kind", kind, "load", true);
+  }
+};
+
+}  // namespace bw::csd

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Elastic: W = U(J) + mu/2 (tr b_bar - 3), eqs (1)-(6) without plastic flow.
+#pragma once
+#include "csd/material/concept.h"
+
+namespace bw::csd {
+
+struct NeoHooke : Elastic {
+  static constexpr auto name = "neo_hooke";
+  static constexpr int components = 6;
+  static constexpr bool plastic = false;
+
+  using Elastic::Elastic;
+
+  template <class T>
+  T deviator(const Point<T>& p, double*) const {
+    return T(mu) * p.iso;  // eq (6)
+  }
+  template <class T>
+  T plastic_work(T) const {
+    return T(0);
+  }
+};
+static_assert(Material<NeoHooke>);
+
+}  // namespace bw::csd

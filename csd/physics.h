@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modules of a run. What a case doesn't use is absent: an empty list or optional costs one test per step.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "csd/element/elements.h"
+#include "csd/element/filter.h"
+#include "csd/element/time_step.h"
+#include "csd/energy.h"
+#include "csd/load/conditions/list.h"
+#include "csd/load/loads.h"
+
+namespace bw::csd {
+
+struct Physics {
+  Elements elements;
+  TimeStep time_step;
+  BulkViscosity viscosity;
+  std::optional<PressureFilter> filter;
+  std::optional<Loads> loads;
+  std::vector<ConditionKind> conditions;
+  EnergyBooks energy;
+};
+
+}  // namespace bw::csd

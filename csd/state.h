@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that changes in time and belongs to no optional module. describe() names each field once.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/math/pack.h"
+#include "csd/element/blocks.h"
+
+namespace bw::csd {
+
+struct State {
+  double t = 0;         ///< s
+  double dt = 0;        ///< s, last step
+  int64_t step = 0;
+
+  Field<Vec3, NodeId> x, v;  ///< m, m/s, at t
+  Field<Vec3, NodeId> f;     ///< N, all forces at t, after the conditions took theirs
+  Field<double, NodeId> m;   ///< kg, lumped
+
+  Field<double, SlotId> V0;      ///< m^3, reference volume
+  Field<double, SlotId> volume;  ///< m^3, current
+  Field<double, SlotId> omega2;  ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
+  Field<double, SlotId> collapsed;  ///< 1: a point has lost most of its volume (element/q1p0.h)
+  std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes]
+
+  enum Use { none = 0, output = 1 };
+  /// visit(name, field, unit, use) for every field; Field<T, NodeId> are nodal, Field<T, SlotId> per element.
+  template <class Visit>
+  void describe(Visit&& visit) {
+    visit("position", x, "m", none);
+    visit("velocity", v, "m/s", output);
+    visit("force", f, "N", none);
+    visit("mass", m, "kg", none);
+    visit("reference_volume", V0, "m^3", none);
+    visit("volume", volume, "m^3", none);
+    visit("omega2", omega2, "1/s^2", none);
+    visit("collapsed", collapsed, "", output);
+  }
+  /// Makes room: nodal fields n, element fields slots.
+  void resize(size_t nodes, size_t slots) {
+    describe([&](const char*, auto& field, const char*, Use) { field.resize(is_nodal(field) ? nodes : slots); });
+  }
+  /// A copy of all nodal values of the parent at the end of every nodal field, per entry. Masses must then be summed anew.
+  void append_copies(std::span<const NodeId> parents) {
+    describe([&](const char*, auto& field, const char*, Use) {
+      if constexpr (requires { field[NodeId(0)]; })
+        for (NodeId parent : parents) field.push_back(field[parent]);
+    });
+  }
+
+ private:
+  template <class T>
+  static constexpr bool is_nodal(const Field<T, NodeId>&) {
+    return true;
+  }
+  template <class T>
+  static constexpr bool is_nodal(const Field<T, SlotId>&) {
+    return false;
+  }
+};
+
+}  // namespace bw::csd
