@@ -14,6 +14,7 @@ namespace bw::csd {
 struct State {
   double t = 0;         ///< s
   double dt = 0;        ///< s, last step
+  double dt_stable = 0; ///< s, bound at t
   int64_t step = 0;
 
   Field<Vec3, NodeId> x, v;  ///< m, m/s, at t

@@ -7,31 +7,53 @@ namespace bw::csd {
 namespace {
 
 /// s.f at s.x and time t; dt since the last call.
-void all_forces(const Mesh& mesh, double t, double dt, State& s, Physics& ph) {
+void sum_forces(Model& m, double t, double dt) {
+  auto& [mesh, topology, s, ph] = m;
   MeanStress mean{.viscosity = ph.viscosity, .dt = dt};
-  if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);         // sec. 2.1
-  ph.energy.viscosity += dt * internal_force(ph.elements, mean, s);       // eqs (1)-(13), (15)
-  if (ph.loads) ph.loads->add(mesh, t, s);                                // eqs (15), (18)
+  if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);    // sec. 2.1
+  ph.energy.viscosity += dt * internal_force(ph.elements, mean, s);  // eqs (1)-(13), (15)
+  if (ph.loads) ph.loads->add(mesh, t, s);                           // eqs (15), (18)
+}
+
+void on_force(Model& m, double dt) {
+  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.on_force(m.state, dt); }, kind);
+}
+void before_drift(Model& m, double dt) {
+  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); }, kind);
+}
+void after_kick(Model& m, double dt) {
+  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.after_kick(m.state, dt); }, kind);
+}
+/// Half a step's work of the loads, at the step's velocities.
+void book_half_work(Model& m, double dt) {
+  if (m.physics.loads) m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);
 }
 
 }  // namespace
 
-void first_forces(const Mesh& mesh, State& s, Physics& ph) {
-  all_forces(mesh, s.t, 0, s, ph);
-  for (auto& c : ph.conditions) std::visit([&](auto& condition) { condition.on_force(s, 0); }, c);
+void first_forces(Model& m) {
+  sum_forces(m, m.state.t, 0);
+  on_force(m, 0);
 }
 
-void step(Mesh& mesh, State& s, Physics& ph, double dt) {
-  kick(s, 0.5 * dt);                                                      // eq (14)
-  for (auto& c : ph.conditions) std::visit([&](auto& condition) { condition.before_drift(s, dt); }, c);
-  if (ph.loads) ph.energy.external += 0.5 * dt * ph.loads->power(s);
+void step(Model& m, double dt) {
+  auto& s = m.state;
+  kick(s, 0.5 * dt);  // eq (14)
+  before_drift(m, dt);
+  book_half_work(m, dt);
   drift(s, dt);
-  all_forces(mesh, s.t + dt, dt, s, ph);
-  for (auto& c : ph.conditions) std::visit([&](auto& condition) { condition.on_force(s, dt); }, c);
-  if (ph.loads) ph.energy.external += 0.5 * dt * ph.loads->power(s);
-  kick(s, 0.5 * dt);                                                      // eq (14)
-  for (auto& c : ph.conditions) std::visit([&](auto& condition) { condition.after_kick(s, dt); }, c);
+  sum_forces(m, s.t + dt, dt);
+  on_force(m, dt);
+  book_half_work(m, dt);
+  kick(s, 0.5 * dt);  // eq (14)
+  after_kick(m, dt);
   s.t += dt, s.dt = dt, s.step += 1;
+}
+
+void change_given_forces(Model& m, std::vector<std::pair<NodeId, Vec3>> forces) {
+  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.give_back(m.state); }, kind);
+  m.physics.loads->replace_given(std::move(forces), m.state);
+  on_force(m, 0);
 }
 
 }  // namespace bw::csd

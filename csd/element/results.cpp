@@ -81,9 +81,11 @@ StoredEnergy stored_energy(const Elements& el, const State& s) {
       int64_t(el.blocks.slot.size()), StoredEnergy{},
       [&](int64_t e) {
         const ElementResult r = evaluate(el, s, el.blocks.slot[ElemId(e)]);
-        return StoredEnergy{r.elastic, r.plastic, r.collapse};
+        return StoredEnergy{r.elastic, r.plastic, r.collapse, r.eqps_max};
       },
-      [](const StoredEnergy& a, const StoredEnergy& b) { return a + b; });
+      [](const StoredEnergy& a, const StoredEnergy& b) {
+        return StoredEnergy{a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse, std::max(a.eqps_max, b.eqps_max)};
+      });
 }
 
 double mean_eqps(const Elements& el, const State& s, SlotId slot) {

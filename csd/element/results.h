@@ -22,9 +22,7 @@ ElementResult evaluate(const Elements& elements, const State& s, SlotId slot, co
 
 struct StoredEnergy {
   double elastic = 0, plastic = 0, collapse = 0;
-  friend StoredEnergy operator+(const StoredEnergy& a, const StoredEnergy& b) {
-    return {a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse};
-  }
+  double eqps_max = 0;
 };
 /// Of all elements.
 StoredEnergy stored_energy(const Elements& elements, const State& s);

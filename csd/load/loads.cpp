@@ -20,8 +20,10 @@ double Loads::power(const State& s) const {
   return parallel_sum(int64_t(f_.size()), [&](int64_t n) { return dot(f_[NodeId(n)], s.v[NodeId(n)]); });
 }
 
-void Loads::append_copies(std::span<const NodeId> parents) {
-  for (NodeId parent : parents) f_.push_back(f_[parent]);
+void Loads::replace_given(std::vector<std::pair<NodeId, Vec3>> forces, State& s) {
+  for (const auto& [n, f] : given_) f_[n] -= f, s.f[n] -= f;
+  given_ = std::move(forces);
+  for (const auto& [n, f] : given_) f_[n] += f, s.f[n] += f;
 }
 
 }  // namespace bw::csd

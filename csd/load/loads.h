@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All loads of a case as nodal forces, and the work they do.
 #pragma once
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "csd/load/list.h"
@@ -14,12 +14,12 @@ class Loads {
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
   /// Forces at positions s.x and time t; added to s.f.
   void add(const Mesh& mesh, double t, State& s);
-  /// Forces from outside (a fluid) instead of computed ones: the next add() also adds these [N], until they are replaced.
-  void set_given(std::vector<std::pair<NodeId, Vec3>> forces) { given_ = std::move(forces); }
+  /// Forces [N] from outside (a fluid), which every add() includes until they are replaced. The present ones are exchanged in
+  /// s.f too. A node that was split leaves them to its parent: they are per window, and cracks are announced before the next.
+  void replace_given(std::vector<std::pair<NodeId, Vec3>> forces, State& s);
   /// W: power of the forces of the last add() at the velocities s.v.
   double power(const State& s) const;
-  /// A node was split: its force is shared by mass, so that accelerations stay.
-  void append_copies(std::span<const NodeId> parents);
+  /// Nodal forces of the last add() [N].
   Field<Vec3, NodeId>& forces() { return f_; }
 
  private:

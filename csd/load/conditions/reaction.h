@@ -21,6 +21,10 @@ struct Reaction {
     R.clear();
     for (NodeId n : nodes) R.push_back(at[size_t(n)]);
   }
+  /// Undoes take_force: the forces change within the step.
+  void give_back(State& s) {
+    for (size_t i = 0; i < nodes.size(); ++i) s.f[nodes[i]] -= R[i], R[i] = {};
+  }
   /// Velocity of a node jumps to v.
   void set_velocity(State& s, NodeId n, const Vec3& v) {
     const Vec3 dv = v - s.v[n];

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/app/log.h"
+#include "csd/step.h"
+
+namespace bw::csd {
+namespace {
+
+Mesh build_mesh(const SolidCase& cs) {
+  std::vector<Mesh> parts;
+  std::vector<std::string> names;
+  for (const BodyCase& body : cs.bodies) {
+    if (std::find(names.begin(), names.end(), body.name) != names.end())
+      throw InputError(fmt::format("{}: two bodies have the name \"{}\"", body.mesh.place, body.name));
+    MeshQuality quality;
+    parts.push_back(make_mesh(body.mesh, quality));
+    names.push_back(body.name);
+    say("body {}: {}", body.name, summary(quality));
+    for (const std::string& note : quality.notes) say("  {}", note);
+  }
+  Mesh mesh = merge(std::move(parts), names);
+  if (cs.renumber) renumber_for_locality(mesh);
+  return mesh;
+}
+
+void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
+  for (int e = 0; e < mesh.elem_count(); ++e) {
+    const BodyCase& body = cs.bodies[size_t(mesh.body[ElemId(e)])];
+    for (NodeId n : mesh.hex[ElemId(e)]) s.v[n] = body.velocity + (body.motion ? body.motion->velocity(s.x[n]) : Vec3{});
+  }
+}
+
+Physics build_physics(const SolidCase& cs, const Mesh& mesh, State& s) {
+  Elements elements;
+  elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
+  for (const BodyCase& body : cs.bodies) elements.materials.push_back(make_material(body.material));
+  start(mesh, elements, s);
+  TimeStep time_step(mesh, elements);
+  Physics ph{std::move(elements), std::move(time_step), cs.viscosity, {}, {}, {}, {}};
+  if (cs.filter.kind != "off") ph.filter.emplace(cs.filter, ph.elements, s);
+  if (!cs.loads.empty()) {
+    std::vector<LoadKind> kinds;
+    for (const LoadCase& load : cs.loads) kinds.push_back(load.kind);
+    ph.loads.emplace(mesh, std::move(kinds));
+  }
+  for (const ConditionCase& condition : cs.conditions) ph.conditions.push_back(condition.kind);
+  for (auto& condition : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, condition);
+  return ph;
+}
+
+}  // namespace
+
+Model build(const Case& cs) {
+  Mesh mesh = build_mesh(cs.solid);
+  Topology topology(mesh);
+  State s;
+  Physics ph = build_physics(cs.solid, mesh, s);
+  set_initial_velocities(cs.solid, mesh, s);
+  Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
+  first_forces(model);
+  model.physics.energy.initial = energy_row(model.physics, model.state).residual;
+  return model;
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The case file as csd sees it: [time], [output], [solid], [coupling]. Only case.cpp reads input.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/cli.h"
+#include "common/app/run_control.h"
+#include "coupling/case.h"
+#include "csd/element/elements.h"
+#include "csd/element/filter.h"
+#include "csd/fracture/fracture.h"
+#include "csd/load/conditions/list.h"
+#include "csd/load/list.h"
+#include "csd/material/list.h"
+#include "csd/mesh/input.h"
+#include "csd/probe.h"
+
+namespace bw::csd {
+
+/// Initial motion of a body besides its velocity: spin about an axis, and radial away from the axis or a point.
+struct MotionCase {
+  Vec3 spin{}, centre{}, axis{0, 0, 1};
+  double radial = 0;
+  std::string away_from = "axis";
+  template <class K>
+  void describe(K& k) {
+    k.optional("spin", spin, dim::spin, "angular velocity about `centre`");
+    k.optional("radial", radial, dim::velocity, "speed away from the axis, or from its centre");
+    k.choice("away_from", away_from, {"axis", "centre"}, "what `radial` leads away from");
+    k.optional("centre", centre, dim::length, "a point of the axis");
+    k.optional("axis", axis, dim::none, "direction of the axis (of any length)");
+    k.expect(norm(axis) > 0, "axis", "a direction other than (0, 0, 0)");
+  }
+  Vec3 velocity(const Vec3& x) const;
+};
+
+/// [[solid.body]]
+struct BodyCase {
+  std::string name;
+  MeshInput mesh;
+  MaterialCase material;
+  Vec3 velocity{};
+  std::optional<MotionCase> motion;
+  template <class K>
+  void describe(K& k) {
+    k.required("name", name, "of the body; its sets are also known as \"name.set\"");
+    k.table("mesh", mesh, "mesh of the body");
+    k.table("material", material, "material of the body");
+    k.optional("velocity", velocity, dim::velocity, "initial velocity");
+    k.table("motion", motion, "further initial velocity: spin and expansion");
+    k.expect(!name.empty(), "name", "a name");
+  }
+};
+
+struct TimeStepCase {
+  double safety = 0.9, maximum = 0, fixed = 0;
+  template <class K>
+  void describe(K& k) {
+    k.optional("safety", safety, dim::none, "step over 2/omega_max, where omega_max is a bound from the elements' actual stiffness");
+    k.optional("maximum", maximum, dim::time, "longest step; 0: no limit");
+    k.optional("fixed", fixed, dim::time, "step, whatever is stable; 0: from the stable step");
+    k.expect(safety > 0 && safety <= 1.5, "safety", "a number in (0, 1.5]");
+    k.expect(maximum >= 0, "maximum", "a time >= 0");
+    k.expect(fixed >= 0, "fixed", "a time >= 0");
+  }
+};
+
+struct ViscosityCase : BulkViscosity {
+  template <class K>
+  void describe(K& k) {
+    k.optional("linear", linear, dim::none, "c1 of q = rho h (c1 c_L + c2^2 h |rate|) |rate|, on compression; 0.06 is usual");
+    k.optional("quadratic", quadratic, dim::none, "c2; 1.5 is usual (strong shocks)");
+    k.expect(linear >= 0, "linear", "a number >= 0");
+    k.expect(quadratic >= 0, "quadratic", "a number >= 0");
+  }
+};
+
+/// [solid.wet]
+struct WetCase {
+  std::vector<std::string> faces;
+  template <class K>
+  void describe(K& k) {
+    k.optional("faces", faces, "face sets that touch the fluid, besides faces made by cracks; empty: the whole boundary");
+    if (!k.is_manual()) place = k.where("faces");
+  }
+  std::string place;
+};
+
+/// [solid]
+struct SolidCase {
+  int threads = 0;
+  bool renumber = true;
+  std::vector<BodyCase> bodies;
+  FilterCase filter;
+  ViscosityCase viscosity;
+  TimeStepCase time_step;
+  std::optional<FractureInput> fracture;
+  std::vector<LoadCase> loads;
+  std::vector<ConditionCase> conditions;
+  std::vector<ProbeCase> probes;
+  WetCase wet;
+  template <class K>
+  void describe(K& k) {
+    k.optional("threads", threads, "threads of csd; 0: OMP_NUM_THREADS or what the machine gives");
+    k.optional("renumber", renumber, "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
+    k.tables("body", bodies, "a body: mesh, material, initial motion");
+    k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
+    k.table("filter", filter, "pressure filter");
+    k.table("viscosity", viscosity, "bulk viscosity; off unless given");
+    k.table("time_step", time_step, "choice of the time step");
+    k.table("fracture", fracture, "cracks by splitting nodes; absent: none");
+    k.tables("load", loads, "a load");
+    k.tables("condition", conditions, "a condition on nodes");
+    k.tables("probe", probes, "columns of solid_history.csv");
+    k.table("wet", wet, "the surface that touches the fluid");
+  }
+};
+
+struct Case {
+  std::string file;
+  RunControl run;
+  coupling::CouplingCase coupling;
+  SolidCase solid;
+};
+
+/// InputError for anything wrong in the file.
+Case read_case(const CommandLine& line);
+/// Every key, with unit, default and meaning.
+std::string case_manual();
+
+}  // namespace bw::csd

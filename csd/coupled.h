@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// csd's end of the line to a fluid program: the wet surface out, pressures in, window by window.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupling/solid_side.h"
+#include "csd/build.h"
+
+namespace bw::csd {
+
+class Coupled {
+ public:
+  Coupled(coupling::Channel& channel, const Case& cs, Model& model);
+
+  double t_end() const { return side_->t_end(); }
+  bool stop_asked() const { return side_->stop_asked(); }
+  /// Sends the surface at the state's time and puts the answer on the model's nodes, for the whole window. Returns the
+  /// window's end, at most t_max.
+  double exchange(Model& model, double dt_stable, double t_max, bool last);
+  /// Around each step of the window.
+  void before_step(const Model& model);
+  void after_step(const Model& model, double dt);
+  void end_window(const Model& model);
+  void finish() { side_->finish(); }
+
+ private:
+  void renew_surface(const Model& model);
+  void update_surface(const Model& model);
+  std::vector<Vec3> positions(const Model& model) const;
+
+  const Case& case_;
+  std::vector<Face> faces_;              ///< original wet faces
+  coupling::WetSurface wet_;
+  std::vector<NodeId> nodes_;            ///< of wet_
+  std::vector<Vec3> force_, x_before_;   ///< per node of wet_: N in this window, m
+  std::unique_ptr<coupling::SolidSide> side_;
+};
+
+}  // namespace bw::csd

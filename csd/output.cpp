@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/app/log.h"
+#include "common/app/machine.h"
+#include "common/app/summary.h"
+#include "common/io/file.h"
+#include "common/parallel/loop.h"
+#include "csd/element/results.h"
+
+namespace bw::csd {
+namespace {
+
+std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
+  std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}, {"dt_stable", "s"}};
+  for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy", "viscous_work",
+                           "external_work", "condition_work", "crack_energy", "energy_residual"})
+    c.push_back({name, "J"});
+  c.push_back({"mass", "kg"});
+  for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
+  for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes"}) c.push_back({name, "1"});
+  for (ProbeCase& probe : probes)
+    std::visit([&](const auto& p) { for (const auto& column : p.columns()) c.push_back({probe.name + " " + column.name, column.unit}); },
+               probe.kind);
+  return c;
+}
+
+Vec3 momentum_of(const State& s) {
+  return parallel_reduce(
+      int64_t(s.x.size()), Vec3{}, [&](int64_t n) { return s.m[NodeId(n)] * s.v[NodeId(n)]; },
+      [](const Vec3& a, const Vec3& b) { return a + b; });
+}
+double mass_of(const State& s) {
+  return parallel_sum(int64_t(s.x.size()), [&](int64_t n) { return s.m[NodeId(n)]; });
+}
+double collapsed_elements(const Model& m) {
+  return parallel_sum(m.mesh.elem_count(), [&](int64_t e) { return m.state.collapsed[m.physics.elements.blocks.slot[ElemId(e)]]; });
+}
+
+}  // namespace
+
+Output::Output(const Case& cs, const Model& model, double t_end)
+    : case_(cs), probes_(cs.solid.probes), series_(cs.run.output.directory, "solid"),
+      fields_(cs.run.output.fields_every, Schedule::Zero::never), rows_(cs.run.output.history_every, Schedule::Zero::every_step),
+      progress_(t_end, cs.run.time.max_steps), start_(std::chrono::steady_clock::now()) {
+  make_folder(cs.run.output.directory);
+  for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
+  history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
+}
+
+double Output::next_time(double t) const { return std::fmin(fields_.next_time(t), rows_.next_time(t)); }
+
+void Output::write_due(Model& model) {
+  if (rows_.due(model.state.t)) write_row(model);
+  if (fields_.due(model.state.t)) write_fields(model);
+}
+
+void Output::write_row(Model& m) {
+  State& s = m.state;
+  if (s.t == t_row_) return;
+  t_row_ = s.t;
+  energy_ = energy_row(m.physics, s);
+  mass_ = mass_of(s), momentum_ = momentum_of(s);
+  std::vector<double> row{s.t, double(s.step), s.dt, s.dt_stable, energy_.kinetic, energy_.elastic, energy_.plastic, energy_.filter,
+                          energy_.collapse, energy_.viscosity, energy_.external, energy_.conditions, energy_.cracks, energy_.residual,
+                          mass_, momentum_.x, momentum_.y, momentum_.z, energy_.eqps_max, checkerboard(m.physics.elements, s),
+                          collapsed_elements(m), double(m.mesh.node_count())};
+  for (ProbeCase& probe : probes_)
+    std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
+  history_->row(row);
+}
+
+std::string Output::write_fields(const Model& m) {
+  const State& s = m.state;
+  if (s.t == t_fields_) return last_dump_;
+  t_fields_ = s.t;
+  const auto& blocks = m.physics.elements.blocks;
+  const size_t n = size_t(m.mesh.elem_count());
+  const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+  std::vector<double> J(n), mean(n), mises(n), eqps(n), eqps_max(n);
+  parallel_for(int64_t(n), [&](int64_t i) {
+    const SlotId slot = blocks.slot[ElemId(i)];
+    const ElementResult r = evaluate(m.physics.elements, s, slot, sigma_m);
+    const size_t e = size_t(i);
+    J[e] = s.volume[slot] / s.V0[slot], mean[e] = trace(r.sigma) / 3, mises[e] = von_mises(r.sigma), eqps[e] = r.eqps,
+    eqps_max[e] = r.eqps_max;
+  });
+  VtkMesh mesh{.points = {s.x.data(), s.x.size()}};
+  mesh.add_hexahedra(m.mesh.hex);
+  std::vector<VtkField> cells{VtkField::scalars("J", J), VtkField::scalars("sigma_m", mean), VtkField::scalars("von_mises", mises),
+                              VtkField::scalars("eqps", eqps), VtkField::scalars("eqps_max", eqps_max),
+                              VtkField::integers("body", std::span<const int32_t>(m.mesh.body.data(), n)),
+                              VtkField::integers("gid", std::span<const int64_t>(m.mesh.elem_gid.data(), n))};
+  last_dump_ = series_.next_path();
+  write_vtkhdf(last_dump_, mesh, {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
+                                  VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})}, cells);
+  series_.add(s.t);
+  return last_dump_;
+}
+
+std::string Output::limiter(const Model& m) const {
+  const SlotId slot = m.physics.time_step.limiting();
+  return slot.valid() ? fmt::format("elem {}", m.mesh.elem_gid[m.physics.elements.blocks.elem[slot]]) : "";
+}
+
+double Output::rate() const {
+  return element_steps_ / std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Output::tick(const Model& m) {
+  element_steps_ += m.mesh.elem_count();
+  progress_.tick(m.state.step, m.state.t, [&] {
+    const double scale = std::fmax(std::fabs(energy_.kinetic) + energy_.elastic + energy_.plastic + std::fabs(energy_.external), 1e-300);
+    return fmt::format("dt {:.3g} s ({}), energy residual {:.1e}, {} nodes, {:.2f} Melem/s", m.state.dt, limiter(m),
+                       energy_.residual / scale, m.mesh.node_count(), 1e-6 * rate());
+  });
+}
+
+void Output::finish(Model& m, const std::string& status, const std::string& message) {
+  const double loop_rate = rate();
+  progress_.finish();
+  const bool failed = status == "failed";
+  if (!failed) {
+    write_row(m);
+    if (case_.run.output.fields_every > 0) write_fields(m);
+  }
+  history_->flush();
+  Summary sum;
+  sum.case_file = case_.file, sum.title = case_.run.title, sum.status = status, sum.message = message;
+  sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
+  sum.rates = {{"elements_per_second", loop_rate}};
+  sum.energies = {{"kinetic", energy_.kinetic}, {"elastic", energy_.elastic}, {"plastic", energy_.plastic}, {"filter", energy_.filter},
+                  {"collapse", energy_.collapse}, {"viscosity", energy_.viscosity}, {"external", energy_.external},
+                  {"conditions", energy_.conditions}, {"cracks", energy_.cracks}, {"residual", energy_.residual}};
+  sum.masses = {{"solid", mass_}};
+  sum.momenta = {{"x", momentum_.x}, {"y", momentum_.y}, {"z", momentum_.z}};
+  sum.counts = {{"elements", double(m.mesh.elem_count())}, {"nodes", double(m.mesh.node_count())}, {"collapsed_elements", collapsed_elements(m)}};
+  sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
+  sum.write(case_.run.output.directory + "/solid_summary.json", timers());
+  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status, m.state.step, m.state.t,
+      1e-6 * loop_rate, limiter(m), energy_.residual);
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run writes: solid_history.csv, solid_*.vtkhdf with their series, solid_summary.json; and signs of life.
+#pragma once
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "common/app/progress.h"
+#include "common/io/csv.h"
+#include "common/io/vtkhdf.h"
+#include "csd/case.h"
+#include "csd/model.h"
+
+namespace bw::csd {
+
+class Output {
+ public:
+  Output(const Case& cs, const Model& model, double t_end);
+
+  /// What is due at the state's time.
+  void write_due(Model& model);
+  /// After each step.
+  void tick(const Model& model);
+  /// The next time that a step has to hit.
+  double next_time(double t) const;
+  /// A file of fields now; returns its path.
+  std::string write_fields(const Model& model);
+  /// Last rows, the summary; status as in common/app/summary.h.
+  void finish(Model& model, const std::string& status, const std::string& message);
+  const std::string& last_dump() const { return last_dump_; }
+
+ private:
+  void write_row(Model& model);
+  std::string limiter(const Model& model) const;
+  double rate() const;
+
+  const Case& case_;
+  std::vector<ProbeCase> probes_;
+  std::optional<History> history_;
+  VtkSeries series_;
+  Schedule fields_, rows_;
+  Progress progress_;
+  EnergyRow energy_;  // of the last row
+  double mass_ = 0;
+  Vec3 momentum_;
+  std::string last_dump_;
+  double t_row_ = -1, t_fields_ = -1;
+  double element_steps_ = 0;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace bw::csd

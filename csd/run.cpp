@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/app/log.h"
+#include "common/app/timers.h"
+#include "coupling/substeps.h"
+#include "csd/coupled.h"
+#include "csd/output.h"
+#include "csd/step.h"
+
+namespace bw::csd {
+namespace {
+
+[[noreturn]] void fail(const Model& m, SlotId slot, const std::string& last_dump) {
+  const ElemId e = m.physics.elements.blocks.elem[slot];
+  Vec3 c;
+  for (NodeId n : m.mesh.hex[e]) c += 0.125 * m.state.x[n];
+  const double v = m.state.volume[slot];
+  throw PhysicsError(fmt::format(
+      "element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m {}, step {}, t = {:.9g} s{}", m.mesh.elem_gid[e], m.mesh.body[e], c.x, c.y, c.z,
+      std::isnan(v) ? "has positions that are not numbers" : fmt::format("is inverted (volume {:.3g} m^3 of {:.3g})", v, m.state.V0[slot]),
+      m.state.step, m.state.t, last_dump.empty() ? "" : "; last good fields: " + last_dump));
+}
+
+/// The step that the case asks for at the present state.
+double wanted_dt(const Case& cs, Model& m, const Output& out) {
+  const TimeStepCase& how = cs.solid.time_step;
+  m.state.dt_stable = m.physics.time_step.stable(m.physics.elements, m.state);
+  if (const auto slot = m.physics.time_step.inverted()) fail(m, *slot, out.last_dump());
+  const double dt = how.fixed > 0 ? how.fixed : how.safety * m.state.dt_stable;
+  return how.maximum > 0 ? std::fmin(dt, how.maximum) : dt;
+}
+
+/// Not so far that the step could not grow meanwhile, and without slivers.
+double target(double t, double next, double dt) { return next - t < 200 * dt ? next : t + 100 * dt; }
+
+}  // namespace
+
+int run(const Case& cs, Model& m, coupling::Channel* channel) {
+  std::optional<Coupled> coupled;
+  if (channel) coupled.emplace(*channel, cs, m);
+  const double t_end = coupled ? coupled->t_end() : cs.run.time.end;
+  const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
+  Output out(cs, m, t_end);
+  std::string status = "finished";
+  try {
+    double dt = wanted_dt(cs, m, out);
+    say("{} elements in {} colours, {} threads, first step {:.4g} s", m.mesh.elem_count(), m.physics.elements.blocks.colours.size(),
+        thread_count(), dt);
+    out.write_due(m);
+    while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
+      const double t_next = std::fmin(t_end, out.next_time(m.state.t));
+      const double t_target = coupled ? coupled->exchange(m, dt, t_next, false) : target(m.state.t, t_next, dt);
+      coupling::EqualSubsteps sub(m.state.t, t_target);
+      while (!sub.done() && (coupled || steps_left())) {
+        const double h = sub.next(dt);
+        if (coupled) coupled->before_step(m);
+        step(m, h);
+        m.state.t = sub.advance();
+        if (coupled) coupled->after_step(m, h);
+        dt = wanted_dt(cs, m, out);
+        out.write_due(m);
+        out.tick(m);
+      }
+      if (coupled) coupled->end_window(m);
+    }
+    if (m.state.t < t_end) status = coupled && coupled->stop_asked() ? "stopped by peer" : "max_steps";
+    if (coupled) coupled->finish();
+  } catch (const PhysicsError& e) {
+    out.finish(m, "failed", e.what());
+    throw;
+  }
+  out.finish(m, status, "");
+  return exit_ok;
+}
+
+}  // namespace bw::csd
