@@ -40,7 +40,8 @@ void Coupled::renew_surface(const Model& m) {
   std::vector<Face> faces = faces_;
   const auto& boundary = m.topology.boundary();
   faces.insert(faces.end(), boundary.begin() + m.topology.original_boundary_count(), boundary.end());
-  wet_ = {.topo_version = m.topology.version()};
+  wet_ = {};
+  wet_.topo_version = m.topology.version();
   nodes_.clear();
   std::vector<int32_t> index(size_t(m.mesh.node_count()), -1);
   for (Face f : faces) {

@@ -45,7 +45,7 @@ double collapsed_elements(const Model& m) {
 }  // namespace
 
 Output::Output(const Case& cs, const Model& model, double t_end)
-    : case_(cs), probes_(cs.solid.probes), series_(cs.run.output.directory, "solid"),
+    : case_(cs), t_end_(t_end), probes_(cs.solid.probes), series_(cs.run.output.directory, "solid"),
       fields_(cs.run.output.fields_every, Schedule::Zero::never), rows_(cs.run.output.history_every, Schedule::Zero::every_step),
       progress_(t_end, cs.run.time.max_steps), start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
@@ -53,7 +53,12 @@ Output::Output(const Case& cs, const Model& model, double t_end)
   history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
 }
 
-double Output::next_time(double t) const { return std::fmin(fields_.next_time(t), rows_.next_time(t)); }
+double Output::next_time(double t) const {
+  double next = std::fmin(t_end_, rows_.next_time(t));
+  for (double other : {fields_.next_time(t), t_end_})  // multiples that differ by round-off are one time
+    next = other < next * (1 - 1e-12) ? other : other < next * (1 + 1e-12) ? std::fmax(next, other) : next;
+  return std::fmin(next, t_end_);
+}
 
 void Output::write_due(Model& model) {
   if (rows_.due(model.state.t)) write_row(model);
@@ -90,7 +95,8 @@ std::string Output::write_fields(const Model& m) {
     J[e] = s.volume[slot] / s.V0[slot], mean[e] = trace(r.sigma) / 3, mises[e] = von_mises(r.sigma), eqps[e] = r.eqps,
     eqps_max[e] = r.eqps_max;
   });
-  VtkMesh mesh{.points = {s.x.data(), s.x.size()}};
+  VtkMesh mesh;
+  mesh.points = {s.x.data(), s.x.size()};
   mesh.add_hexahedra(m.mesh.hex);
   std::vector<VtkField> cells{VtkField::scalars("J", J), VtkField::scalars("sigma_m", mean), VtkField::scalars("von_mises", mises),
                               VtkField::scalars("eqps", eqps), VtkField::scalars("eqps_max", eqps_max),

@@ -21,7 +21,7 @@ class Output {
   void write_due(Model& model);
   /// After each step.
   void tick(const Model& model);
-  /// The next time that a step has to hit.
+  /// The next time that a step has to hit, at most the end.
   double next_time(double t) const;
   /// A file of fields now; returns its path.
   std::string write_fields(const Model& model);
@@ -35,6 +35,7 @@ class Output {
   double rate() const;
 
   const Case& case_;
+  double t_end_;
   std::vector<ProbeCase> probes_;
   std::optional<History> history_;
   VtkSeries series_;

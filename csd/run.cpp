@@ -53,7 +53,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
         thread_count(), dt);
     out.write_due(m);
     while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
-      const double t_next = std::fmin(t_end, out.next_time(m.state.t));
+      const double t_next = out.next_time(m.state.t);
       const double t_target = coupled ? coupled->exchange(m, dt, t_next, false) : target(m.state.t, t_next, dt);
       coupling::EqualSubsteps sub(m.state.t, t_target);
       while (!sub.done() && (coupled || steps_left())) {

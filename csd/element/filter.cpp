@@ -126,7 +126,8 @@ double checkerboard(const Elements& el, const State& s) {
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
   const double all = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i]); });
-  return all > 0 ? rough / all : 0;
+  const double noise = element_sum(el, [&](SlotId i) { return s.V0[i] * volumetric_of(el, i).kappa; });
+  return all > 1e-12 * noise ? rough / all : 0;
 }
 
 }  // namespace bw::csd
