@@ -5,7 +5,7 @@
 #include "cfd/embed/predicates.h"
 #include "cfd/embed/scan.h"
 #include "common/math/random.h"
-#include "tests/unit/cfd/embed_surfaces.h"
+#include "embed_surfaces.h"
 
 namespace bw::cfd {
 namespace {

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// The step of a block with walls in it: the block kernel (cfd/scheme/block_kernel.h) runs as if there were none, then the cells whose
+// stencil meets a cut link are done again here with one-sided slopes and wall fluxes.
+//
+// Along a grid line with the wall at distance s (in cells) from centre 0 and neighbour 1 on the other side [1-D: the linear
+// half-Riemann wall]:
+//   W_w = W_0 + s (W_0 - W_1),  W* = half-Riemann(W_w, wall),  line through W* (at the wall) and W_1, skipping W_0: any s in [0, 1]
+// gives the ghost value for the limited slope of cell 0 and, half a step later, the state at the cell face next to the wall.
+// Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
+#pragma once
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "cfd/embed/patch_cuts.h"
+#include "cfd/embed/wall_gas.h"
+#include "cfd/scheme/block_kernel.h"
+
+namespace bw::cfd {
+
+/// What the fluid of a block lost through cut links in one step.
+struct WallExchange {
+  double mass = 0;        ///< kg: the defect of link walls, 0 on average
+  Vec3 momentum;          ///< kg m/s: the impulse on the walls
+  double energy = 0;      ///< J
+  int64_t links = 0;
+  WallExchange& operator+=(const WallExchange& o) {
+    mass += o.mass, momentum += o.momentum, energy += o.energy, links += o.links;
+    return *this;
+  }
+};
+
+/// One per thread.
+template <class Eos>
+class CutKernel {
+ public:
+  using Flow = typename Eos::Flow;
+  using Gas = WallGas<Eos>;
+  using State = typename Gas::State;
+  static constexpr int n = Flow::n, n_flux = Flow::n_flux;
+
+  explicit CutKernel(const BlockShape& shape) : shape_(shape) {}
+
+  /// After BlockKernel::advance with the same arguments: corrects `change` in and near cut cells, 0 in blocked ones.
+  void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt, BlockChange& change,
+               WallExchange& exchange) {
+    begin(patch, cuts, flow, eos, dt);
+    change_ = &change, exchange_ = &exchange;
+    mark(change);
+    for (const Cell& x : redo_) {
+      for (int d = 0; d < 3; ++d) {
+        if (!shape_.used[size_t(d)]) continue;
+        const Cell low = moved(x, d, -1), high = moved(x, d, 1);
+        if (cuts.cut(x.c, d, 0)) add(x, wall_face(x, d, 0), d, 1);
+        else {
+          const Face f = open_face(low, x, d);
+          add(x, f, d, 1);
+          if (is_redo_[size_t(low.c)]) add(low, f, d, -1);
+        }
+        if (cuts.cut(x.c, d, 1)) add(x, wall_face(x, d, 1), d, -1);
+        else if (!is_redo_[size_t(high.c)]) add(x, open_face(x, high, d), d, -1);
+      }
+    }
+    if (change.book_sides) book_sides(change);
+  }
+
+  /// Pressure on a wall at x (mid-step) as seen from the open cell (k, j, i) of the block, and the density times sound speed there.
+  /// normal: unit, into the fluid. Call begin() or correct() before.
+  struct Load {
+    double p, rho_c;
+  };
+  Load load(const Index3& cell, const Vec3& x, const Vec3& normal, const Vec3& v_wall) {
+    const Cell c = cell_at(cell[2], cell[1], cell[0]);
+    const Predicted& own = predicted(c);
+    const State mean = read(c);
+    State sum = own.half;
+    State slope{};
+    for (int d = 0; d < 3; ++d) {
+      if (!shape_.used[size_t(d)]) continue;
+      const bool low = !cuts_->cut(c.c, d, 0), high = !cuts_->cut(c.c, d, 1);
+      if (!low && !high) continue;
+      const State a = low ? read(moved(c, d, -1)) : mean, b = high ? read(moved(c, d, 1)) : mean;
+      const double centre = patch_->lower[d] + (cell[size_t(d)] + 0.5) * shape_.h[d];
+      const double share = std::clamp((x[d] - centre) / shape_.h[d], -2.0, 2.0) * (low && high ? 0.5 : 1.0);
+      for (size_t q = 0; q < size_t(n); ++q) slope[q] += share * (b[q] - a[q]);
+    }
+    State other = mean;
+    for (size_t q = 0; q < size_t(n); ++q) other[q] -= slope[q];
+    const State change = Gas::beyond(mean, other, 1);
+    for (size_t q = 0; q < size_t(n); ++q) sum[q] += change[q] - mean[q];
+    const State near = sum[Gas::p] > 0 && Gas::rho(sum) > 0 ? sum : mean;
+    const State star = gas_->at_wall(near, normal, v_wall);
+    return {star[Gas::p], std::sqrt(std::max(gas_->rho_c2(star), 0.0) * Gas::rho(star))};
+  }
+
+  void begin(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt) {
+    patch_ = &patch, cuts_ = &cuts, flow_ = &flow;
+    gas_.emplace(Gas{eos});
+    dt_ = dt;
+    for (int d = 0; d < 3; ++d) {
+      lambda_[d] = shape_.used[size_t(d)] ? dt / shape_.h[d] : 0;
+      half_lambda_[d] = 0.5 * lambda_[d];
+    }
+    stride_[0] = 1, stride_[1] = patch.stride_j(), stride_[2] = patch.stride_k();
+    for (int q = 0; q < n; ++q) row_[q] = patch.row(flow.prim_row(q), 0, 0);
+    slot_.assign(size_t(cuts.size()), -1);
+    predicted_.clear();
+  }
+
+ private:
+  /// A patch cell: its number in PatchCuts and its offset in the patch's rows.
+  struct Cell {
+    int c;
+    ptrdiff_t p;
+  };
+  struct Predicted {
+    State half;               ///< W(t + dt/2)
+    double slope[3][Flow::n];  ///< limited, one-sided at walls
+  };
+  struct Face {
+    double F[Flow::n_flux];  ///< flux dt/h
+    double v;                ///< face velocity dt/h
+  };
+
+  Cell cell_at(int k, int j, int i) const { return {cuts_->at(k, j, i), k * stride_[2] + j * stride_[1] + i}; }
+  Cell moved(Cell x, int d, int by) const { return {x.c + by * cuts_->step(d), x.p + by * stride_[d]}; }
+  State read(Cell x) const {
+    State w;
+    for (int q = 0; q < n; ++q) w[size_t(q)] = row_[q][x.p];
+    return w;
+  }
+
+  void mark(BlockChange& change) {
+    redo_.clear();
+    is_redo_.assign(size_t(cuts_->size()), 0);
+    for (int k = 0; k < shape_.n[2]; ++k)
+      for (int j = 0; j < shape_.n[1]; ++j)
+        for (int i = 0; i < shape_.n[0]; ++i) {
+          const Cell x = cell_at(k, j, i);
+          bool redo = cuts_->touched(x.c);
+          for (int d = 0; d < 3 && !redo; ++d)
+            if (shape_.used[size_t(d)]) redo = cuts_->touched(x.c - cuts_->step(d)) || cuts_->touched(x.c + cuts_->step(d));
+          if (!redo) continue;
+          for (int q = 0; q < n_flux; ++q) change.row(flow_->cons_row(q), k, j)[i] = 0;
+          if (cuts_->blocked(x.c)) continue;
+          is_redo_[size_t(x.c)] = 1;
+          redo_.push_back(x);
+          place_.resize(size_t(cuts_->size()));
+          place_[size_t(x.c)] = change.row(0, k, j) + i - change.row(0, 0, 0);
+        }
+  }
+
+  void add(Cell x, const Face& f, int, double sign) {
+    const ptrdiff_t at = place_[size_t(x.c)];
+    for (int q = 0; q < n_flux; ++q) {
+      double change = f.F[q];
+      if constexpr (Flow::mixed)
+        if (q == Cons::alpha1) change -= row_[Prim::alpha1][x.p] * f.v;
+      change_->row(flow_->cons_row(q), 0, 0)[at] += sign * change;
+    }
+  }
+
+  const Predicted& predicted(Cell x) {
+    if (const int32_t s = slot_[size_t(x.c)]; s >= 0) return predicted_[size_t(s)];
+    slot_[size_t(x.c)] = int32_t(predicted_.size());
+    predicted_.emplace_back();
+    Predicted& r = predicted_.back();
+    const State mean = read(x);
+    double half[n], mean_w[n];
+    for (int q = 0; q < n; ++q) half[q] = mean_w[q] = mean[size_t(q)];
+    for (int d = 0; d < 3; ++d) {
+      const bool low = cuts_->cut(x.c, d, 0), high = cuts_->cut(x.c, d, 1);
+      if (!shape_.used[size_t(d)] || (low && high)) {
+        for (double& s : r.slope[d]) s = 0;
+        continue;
+      }
+      const State a = low ? ghost(x, mean, d, 0) : read(moved(x, d, -1)), b = high ? ghost(x, mean, d, 1) : read(moved(x, d, 1));
+      for (size_t q = 0; q < size_t(n); ++q) r.slope[d][q] = MonotonizedCentral::slope(mean[q] - a[q], b[q] - mean[q]);
+    }
+    Flow::predict(half, r.slope, half_lambda_, patch_->row(Prim::rho_c2, 0, 0)[x.p], patch_->row(Prim::dPi, 0, 0)[x.p]);
+    if (patch_->limited) {
+      const double keep = patch_->row(Prim::order, 0, 0)[x.p];
+      for (int q = 0; q < n; ++q) {
+        half[q] = mean_w[q] + keep * (half[q] - mean_w[q]);
+        for (auto& slope : r.slope) slope[q] *= keep;
+      }
+    }
+    keep_faces_positive(*flow_, mean_w, half, r.slope);
+    for (int q = 0; q < n; ++q) r.half[size_t(q)] = half[q];
+    return r;
+  }
+
+  /// The value that the wall line has one cell beyond x, at t.
+  State ghost(Cell x, const State& mean, int d, int side) const {
+    const WallSide& w = cuts_->wall(x.c, d, side);
+    const State other = read(moved(x, d, side ? -1 : 1));
+    const State star = gas_->at_wall(Gas::beyond(mean, other, w.s), w.n, w.v);
+    return Gas::on_line(star, other, mean, (w.s - 1) / (1 + w.s));
+  }
+
+  Face open_face(Cell low, Cell high, int d) {
+    const Predicted& a = predicted(low);  // a and b: predicted() may move what it returned before
+    double L[n], R[n];
+    for (int q = 0; q < n; ++q) L[q] = a.half[size_t(q)] + 0.5 * a.slope[d][q];
+    const Predicted& b = predicted(high);
+    for (int q = 0; q < n; ++q) R[q] = b.half[size_t(q)] - 0.5 * b.slope[d][q];
+    const double* c = patch_->row(Prim::c, 0, 0);
+    double stored = 0;
+    if (Flow::mixed && patch_->burns) {
+      const double* z = patch_->row(Prim::stored_energy, 0, 0);
+      stored = 0.5 * (z[low.p] + z[high.p]);
+    }
+    return solve(L, R, c[low.p], c[high.p], d, stored);
+  }
+
+  Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], double c_L, double c_R, int d, double stored) const {
+    Face f;
+    f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, c_L, c_R, f.F)
+                        : d == 1 ? flow_->template flux<1>(L, R, c_L, c_R, f.F)
+                                 : flow_->template flux<2>(L, R, c_L, c_R, f.F));
+    if constexpr (Flow::mixed) f.F[Cons::rhoE] += f.F[Cons::arho1] * stored;
+    for (double& F : f.F) F *= lambda_[d];
+    return f;
+  }
+
+  /// Flux at the face of x whose link is cut; the wall stands where it will be at mid-step.
+  Face wall_face(Cell x, int d, int side) {
+    const WallSide& w = cuts_->wall(x.c, d, side);
+    const double out = side ? 1 : -1;
+    double towards = out * w.n[d];  // < 0; a wall nearly along the line moves over it at no more than half a cell a step
+    towards = std::min(towards, -0.1);
+    const double shift = std::clamp(0.5 * dt_ * dot(w.v, w.n) / (towards * shape_.h[d]), -0.5, 0.5);
+    const double s = std::max(w.s + shift, 0.0);
+    State other, half;
+    double inner[n];
+    bool line = false;
+    if (!cuts_->cut(x.c, d, 1 - side)) {
+      other = predicted(moved(x, d, side ? -1 : 1)).half;
+      line = true;
+    }
+    const Predicted& own = predicted(x);
+    half = own.half;
+    for (int q = 0; q < n; ++q) inner[q] = half[size_t(q)] + 0.5 * out * own.slope[d][q];
+    State face, star;
+    if (line) {
+      const State mean = read(x), next = read(moved(x, d, side ? -1 : 1));
+      State back = half;  // the slope is the one at t
+      for (size_t q = 0; q < size_t(n); ++q) back[q] += next[q] - mean[q];
+      star = gas_->at_wall(Gas::beyond(half, back, s), w.n, w.v);
+      face = Gas::on_line(star, other, half, (s - 0.5) / (1 + s));
+    } else {
+      face = star = gas_->at_wall(half, w.n, w.v);
+    }
+    double beyond[n];
+    for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
+    const double c_in = patch_->row(Prim::c, 0, 0)[x.p], c_wall = std::sqrt(std::max(gas_->rho_c2(star), 0.0) / Gas::rho(star));
+    const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
+    const Face f = side ? solve(inner, beyond, c_in, c_wall, d, stored) : solve(beyond, inner, c_wall, c_in, d, stored);
+    const double volume = out * shape_.cell_volume();
+    for (int q = 0; q < Gas::densities; ++q) exchange_->mass += volume * f.F[q];
+    for (int e = 0; e < 3; ++e) exchange_->momentum[e] += volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];
+    exchange_->energy += volume * f.F[Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE)];
+    ++exchange_->links;
+    return f;
+  }
+
+  /// Sums over the sides of the block again: the block kernel's hold fluxes through walls.
+  void book_sides(BlockChange& change) {
+    for (int d = 0; d < 3; ++d)
+      for (int upper = 0; upper < 2; ++upper) {
+        if (!(change.book_sides >> (2 * d + upper) & 1)) continue;
+        double(&sum)[Cons::count] = change.side[2 * d + upper];
+        std::fill(sum, sum + Cons::count, 0.0);
+        Index3 first{0, 0, 0}, last = shape_.n;
+        (upper ? first : last)[size_t(d)] = upper ? shape_.n[size_t(d)] - 1 : 1;
+        for (int k = first[2]; k < last[2]; ++k)
+          for (int j = first[1]; j < last[1]; ++j)
+            for (int i = first[0]; i < last[0]; ++i) {
+              const Cell x = cell_at(k, j, i);
+              if (cuts_->blocked(x.c) || cuts_->cut(x.c, d, upper)) continue;
+              const Face f = upper ? open_face(x, moved(x, d, 1), d) : open_face(moved(x, d, -1), x, d);
+              for (int q = 0; q < n_flux; ++q) sum[flow_->cons_row(q)] += f.F[q];
+            }
+      }
+  }
+
+  BlockShape shape_;
+  const Patch* patch_ = nullptr;
+  const PatchCuts* cuts_ = nullptr;
+  const Flow* flow_ = nullptr;
+  BlockChange* change_ = nullptr;
+  WallExchange* exchange_ = nullptr;
+  std::optional<Gas> gas_;
+  double dt_ = 0, lambda_[3] = {}, half_lambda_[3] = {};
+  ptrdiff_t stride_[3] = {};
+  const double* row_[Flow::n] = {};
+  std::vector<Cell> redo_;
+  std::vector<uint8_t> is_redo_;   ///< by patch cell
+  std::vector<ptrdiff_t> place_;   ///< by patch cell: offset in the change's rows
+  std::vector<int32_t> slot_;      ///< by patch cell: into predicted_, -1: not yet
+  std::vector<Predicted> predicted_;
+};
+
+}  // namespace bw::cfd

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/embed/patch_cuts.h"
+
+namespace bw::cfd {
+
+PatchCuts::PatchCuts(const BlockShape& shape) : shape_(shape) {
+  for (int d = 0; d < 3; ++d) {
+    g_[d] = shape.ghost(d);
+    e_[d] = shape.n[size_t(d)] + 2 * g_[d];
+    source_[d].resize(size_t(e_[d]));
+  }
+  step_[0] = 1, step_[1] = e_[0], step_[2] = e_[0] * e_[1];
+  bits_.resize(size_t(size()));
+  raw_.resize(size_t(size()));
+  for (auto& w : wall_) w.resize(size_t(size()));
+}
+
+void PatchCuts::set_wall(int c, int d, int side, const WallSide& w) {
+  bits_[size_t(c)] |= uint16_t(1u << (2 * d + side));
+  wall_[2 * d + side][size_t(c)] = int32_t(walls_.size());
+  walls_.push_back(w);
+}
+
+/// The link between patch cell c (number `at`) and its upper neighbour in direction d.
+void PatchCuts::gather_links(const CutMap& map, int d, const Index3& c, int at) {
+  const int n = map.lattice().n[size_t(d)];
+  Index3 from;
+  bool reflected[3];
+  for (int e = 0; e < 3; ++e) {
+    const Source& s = source_[e][size_t(c[size_t(e)] + g_[e])];
+    from[size_t(e)] = s.index;
+    reflected[e] = s.reflected;
+  }
+  const int low = origin_[size_t(d)] + c[size_t(d)];  // of the link's lower cell, not wrapped
+  const CutLink* link = nullptr;
+  bool swap = false;
+  if (low >= -1 && low < n) {  // a link of the lattice, or through its boundary
+    from[size_t(d)] = low;
+    reflected[d] = false;
+    link = map.link(from, d);
+    const bool through = low == -1 || low == n - 1;
+    if (!link && through && rules_[size_t(2 * d + (low == -1 ? 0 : 1))] == GhostRule::periodic) {
+      from[size_t(d)] = low == -1 ? n - 1 : -1;
+      link = map.link(from, d);
+    }
+  } else {
+    const GhostRule rule = rules_[size_t(2 * d + (low < 0 ? 0 : 1))];
+    if (rule == GhostRule::copy) return;
+    const Source& upper = source_[d][size_t(c[size_t(d)] + 1 + g_[d])];
+    swap = rule == GhostRule::mirror;
+    from[size_t(d)] = swap ? upper.index : source_[d][size_t(c[size_t(d)] + g_[d])].index;
+    reflected[d] = swap;
+    link = map.link(from, d);
+  }
+  if (!link) return;
+  WallSide below = swap ? link->above : link->below, above = swap ? link->below : link->above;
+  for (int e = 0; e < 3; ++e)
+    if (reflected[e])
+      for (WallSide* w : {&below, &above}) {
+        w->n[e] = -w->n[e];
+        w->v[e] = -w->v[e];
+      }
+  set_wall(at, d, 1, below);
+  set_wall(at + step_[d], d, 0, above);
+}
+
+void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3& origin) {
+  rules_ = rules;
+  origin_ = origin;
+  walls_.clear();
+  orphans_ = 0;
+  Index3 lower = origin, upper;
+  for (size_t d = 0; d < 3; ++d) {
+    const int n = map.lattice().n[d];
+    for (int i = -g_[d]; i < e_[d] - g_[d]; ++i) {
+      Source& s = source_[d][size_t(i + g_[d])];
+      s = {origin[d] + i, false};
+      if (s.index >= 0 && s.index < n) continue;
+      const bool up = s.index >= n;
+      switch (rules[2 * d + size_t(up)]) {
+        case GhostRule::mirror: s = {up ? 2 * n - 1 - s.index : -1 - s.index, true}; break;
+        case GhostRule::copy: s.index = up ? n - 1 : 0; break;
+        case GhostRule::periodic: s.index += up ? -n : n; break;
+      }
+    }
+    lower[d] -= g_[d];
+    upper[d] = lower[d] + e_[d];
+  }
+  any_ = map.touches(lower, upper);
+  for (size_t d = 0; d < 3; ++d)  // ghosts from the other end of a periodic domain
+    if (g_[d] > 0 && (rules[2 * d] == GhostRule::periodic)) any_ = any_ || lower[d] < 0 || upper[d] > map.lattice().n[d];
+  all_blocked_ = false;
+  if (!any_) return;
+
+  for (int k = -g_[2]; k < e_[2] - g_[2]; ++k)
+    for (int j = -g_[1]; j < e_[1] - g_[1]; ++j)
+      for (int i = -g_[0]; i < e_[0] - g_[0]; ++i) {
+        const uint8_t f = map.flags({source_[0][size_t(i + g_[0])].index, source_[1][size_t(j + g_[1])].index,
+                                     source_[2][size_t(k + g_[2])].index});
+        raw_[size_t(at(k, j, i))] = f;
+        bits_[size_t(at(k, j, i))] = uint16_t((f & cell_blocked ? is_blocked : 0) | (f & cell_fresh ? is_fresh : 0));
+      }
+  for (int d = 0; d < 3; ++d) {
+    if (!shape_.used[size_t(d)]) continue;
+    Index3 end{e_[0] - g_[0], e_[1] - g_[1], e_[2] - g_[2]};
+    --end[size_t(d)];
+    for (int k = -g_[2]; k < end[2]; ++k)
+      for (int j = -g_[1]; j < end[1]; ++j)
+        for (int i = -g_[0]; i < end[0]; ++i) {
+          const int c = at(k, j, i), u = c + step_[d];
+          const int low = origin[size_t(d)] + Index3{i, j, k}[size_t(d)];
+          const bool within = low >= 0 && low < map.lattice().n[size_t(d)] - 1;
+          if (!within || raw_[size_t(c)] & (cell_cut << d)) gather_links(map, d, {i, j, k}, c);
+          if (blocked(c) != blocked(u) && !cut(c, d, 1)) {
+            // no face between metal and fluid: an open surface ends here, or a cell is sealed; a resting wall half way
+            Vec3 n;
+            n[d] = blocked(c) ? 1 : -1;
+            set_wall(c, d, 1, {0.5, n, {}, -1});
+            set_wall(u, d, 0, {0.5, n, {}, -1});
+            ++orphans_;
+          }
+        }
+  }
+  all_blocked_ = true;
+  for (int k = 0; k < shape_.n[2]; ++k)
+    for (int j = 0; j < shape_.n[1]; ++j)
+      for (int i = 0; i < shape_.n[0]; ++i) all_blocked_ = all_blocked_ && blocked(at(k, j, i));
+}
+
+}  // namespace bw::cfd

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walls in one patch (a block and its ghosts), looked up once for all kernels of a step.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "cfd/amr/patch.h"
+#include "cfd/embed/cut_map.h"
+
+namespace bw::cfd {
+
+/// How the ghosts beyond a side of the domain are made, so that the walls in them match.
+enum class GhostRule { mirror, copy, periodic };
+using GhostRules = std::array<GhostRule, 6>;  ///< [2 d + upper]
+
+class PatchCuts {
+ public:
+  PatchCuts() = default;
+  explicit PatchCuts(const BlockShape& shape);
+
+  /// origin: lattice cell of the block's first cell.
+  void gather(const CutMap& map, const GhostRules& rules, const Index3& origin);
+
+  /// Patch cells as one number; step(d) leads to the upper neighbour.
+  int at(int k, int j, int i) const { return ((k + g_[2]) * e_[1] + (j + g_[1])) * e_[0] + (i + g_[0]); }
+  int step(int d) const { return step_[d]; }
+  int size() const { return e_[0] * e_[1] * e_[2]; }
+  bool blocked(int c) const { return bits_[size_t(c)] & is_blocked; }
+  bool fresh(int c) const { return bits_[size_t(c)] & is_fresh; }
+  /// Is the link of the open cell c on this side (0 lower, 1 upper) cut? Every link to a blocked neighbour is.
+  bool cut(int c, int d, int side) const { return bits_[size_t(c)] & (1u << (2 * d + side)); }
+  bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts); }
+  const WallSide& wall(int c, int d, int side) const { return walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
+  bool any() const { return any_; }                    ///< anything but open fluid?
+  bool all_blocked() const { return all_blocked_; }    ///< no fluid in the block itself
+  int orphans() const { return orphans_; }             ///< links into metal that no face cuts (open surfaces)
+  const BlockShape& shape() const { return shape_; }
+
+ private:
+  static constexpr uint16_t all_cuts = 63, is_blocked = 64, is_fresh = 128;
+  void set_wall(int c, int d, int side, const WallSide& w);
+  void gather_links(const CutMap& map, int d, const Index3& c, int at);
+
+  /// One lattice index seen from the patch.
+  struct Source {
+    int index = 0;
+    bool reflected = false;
+  };
+  BlockShape shape_;
+  int g_[3] = {}, e_[3] = {}, step_[3] = {};
+  std::vector<Source> source_[3];  ///< by patch index + ghosts
+  GhostRules rules_{};
+  Index3 origin_{};
+  std::vector<uint16_t> bits_;
+  std::vector<uint8_t> raw_;      ///< CellFlag bits of the source cells
+  std::vector<int32_t> wall_[6];  ///< into walls_, valid where the bit is set
+  std::vector<WallSide> walls_;
+  bool any_ = false, all_blocked_ = false;
+  int orphans_ = 0;
+};
+
+}  // namespace bw::cfd

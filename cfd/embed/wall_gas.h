@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gas at a wall, in the rows of a flow model (cfd/scheme/flow_model.h): its equation of state, its state at the wall, and
+// the one-sided line through that state.
+#pragma once
+#include <array>
+#include <type_traits>
+
+#include "cfd/embed/cut_map.h"
+#include "cfd/embed/wall_state.h"
+#include "cfd/scheme/flow_model.h"
+
+namespace bw::cfd {
+
+/// Equation of state of GasFlow.
+struct GasAtWall {
+  using Flow = GasFlow;
+  double over_G, Pi;
+  template <class W> double G(const W&) const { return over_G; }
+  template <class W> double pi(const W&) const { return Pi; }
+  template <class W> double stiffness(const W&) const { return Pi; }
+  template <class W> bool ideal(const W&) const { return true; }
+};
+
+/// Equation of state of MixedFlow.
+template <class Mix>
+struct MixtureAtWall {
+  using Flow = MixedFlow;
+  const Mix& mix;
+  template <class W> double G(const W& w) const { return mix.closure().G(w[Prim::alpha1]); }
+  template <class W> PiTerms<double> sum(const W& w) const { return mix.pi_sum(w[Prim::arho1], w[Prim::arho2], w[Prim::alpha1]); }
+  template <class W> double pi(const W& w) const { return sum(w).pi; }
+  template <class W> double stiffness(const W& w) const { return sum(w).stiffness; }
+  template <class W> bool ideal(const W& w) const {
+    constexpr bool first = std::decay_t<decltype(mix.m1)>::constant_reference, second = std::decay_t<decltype(mix.m2)>::constant_reference;
+    return (first || w[Prim::alpha1] == 0) && (second || w[Prim::alpha1] == 1);
+  }
+};
+
+template <class Eos>
+struct WallGas {
+  using Flow = typename Eos::Flow;
+  static constexpr int n = Flow::n, v = Flow::v, p = Flow::p, densities = Flow::mixed ? 2 : 1;
+  using State = std::array<double, size_t(n)>;
+  Eos eos;
+
+  static double rho(const State& w) {
+    if constexpr (Flow::mixed) return w[0] + w[1];
+    else return w[0];
+  }
+  static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
+  double rho_c2(const State& w) const {
+    const double G = eos.G(w);
+    return (eos.stiffness(w) + w[p] * (1 + G)) / G;
+  }
+
+  /// The state at the wall next to the gas w: the wall's normal velocity, the gas's tangential one, its composition.
+  State at_wall(const State& w, const Vec3& normal, const Vec3& v_wall) const {
+    const double dv = dot(v_wall - velocity(w), normal);
+    if (dv == 0) return w;
+    const double G = eos.G(w), r = rho(w);
+    const double K = std::max(rho_c2(w), 1e-12 * w[p]);
+    const WallStar star = wall_star(r, w[p], K, G, dv, eos.ideal(w), [&](double ratio, double pressure) {
+      State at = w;
+      for (int q = 0; q < densities; ++q) at[size_t(q)] *= ratio;
+      return (eos.stiffness(at) + pressure * (1 + G)) / G;
+    });
+    State at = w;
+    for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
+    at[p] = star.p;
+    for (int d = 0; d < 3; ++d) at[size_t(v + d)] += dv * normal[d];
+    if constexpr (Flow::mixed) at[Prim::Pi] = eos.pi(at);
+    return at;
+  }
+
+  /// w + share (w - other), the line from a neighbour through w prolonged towards a wall: less of it where density or pressure would
+  /// change by more than a factor of two. Composition is w's; where it varies, so are the densities.
+  static State beyond(const State& w, const State& other, double share) {
+    State out = w;
+    double keep = 1;
+    auto limit = [&](double here, double there) {
+      const double change = share * (here - there);
+      if (change < -0.5 * here) keep = std::min(keep, 0.5 * here / -change);
+      if (change > here) keep = std::min(keep, here / change);
+    };
+    limit(w[p], other[p]);
+    const bool uniform = same_composition(w, other);
+    if (uniform) limit(rho(w), rho(other));
+    const double s = keep * share;
+    if (uniform)
+      for (int q = 0; q < densities; ++q) out[size_t(q)] += s * (w[size_t(q)] - other[size_t(q)]);
+    for (int q = v; q <= p; ++q) out[size_t(q)] += s * (w[size_t(q)] - other[size_t(q)]);
+    return out;
+  }
+
+  /// star + share (other - star) with the composition of `own`; star itself where that is no gas.
+  static State on_line(const State& star, const State& other, const State& own, double share) {
+    State out = star;
+    const bool uniform = same_composition(own, other);
+    for (int q = 0; q < n; ++q)
+      if (uniform || (q >= v && q <= p)) out[size_t(q)] += share * (other[size_t(q)] - star[size_t(q)]);
+    const bool physical = out[p] > 0.2 * star[p] && rho(out) > 0.2 * rho(star) && out[p] < 5 * star[p] && rho(out) < 5 * rho(star);
+    return physical ? out : star;
+  }
+
+  static bool same_composition(const State& a, const State& b) {
+    if constexpr (Flow::mixed) return std::abs(a[Prim::alpha1] - b[Prim::alpha1]) < 1e-10;
+    else return true;
+  }
+};
+
+}  // namespace bw::cfd
