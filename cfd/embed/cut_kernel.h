@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step of a block with walls in it: the block kernel (cfd/scheme/block_kernel.h) runs as if there were none, then the cells whose
-// stencil meets a cut link are done again here with one-sided slopes and wall fluxes.
+// The step of a block with walls in it: the block kernel (cfd/scheme/block_kernel.h) runs as if there were none, then
+// the cells whose stencil meets a cut link are done again here with one-sided slopes and wall fluxes.
 //
-// Along a grid line with the wall at distance s (in cells) from centre 0 and neighbour 1 on the other side [1-D: the linear
-// half-Riemann wall]:
-//   W_w = W_0 + s (W_0 - W_1),  W* = half-Riemann(W_w, wall),  line through W* (at the wall) and W_1, skipping W_0: any s in [0, 1]
-// gives the ghost value for the limited slope of cell 0 and, half a step later, the state at the cell face next to the wall.
-// Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
+// Along a grid line with the wall at distance s (in cells) from centre 0 and neighbour 1 on the other side [1-D: the
+// linear half-Riemann wall]:
+//   W_w = W_0 + s (W_0 - W_1),  W* = half-Riemann(W_w, wall),  line through W* (at the wall) and W_1, skipping W_0: any
+//   s in [0, 1]
+// gives the ghost value for the limited slope of cell 0 and, half a step later, the state at the cell face next to the
+// wall. Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -20,9 +21,9 @@ namespace bw::cfd {
 
 /// What the fluid of a block lost through cut links in one step.
 struct WallExchange {
-  double mass = 0;        ///< kg: the defect of link walls, 0 on average
-  Vec3 momentum;          ///< kg m/s: the impulse on the walls
-  double energy = 0;      ///< J
+  double mass = 0;    ///< kg: the defect of link walls, 0 on average
+  Vec3 momentum;      ///< kg m/s: the impulse on the walls
+  double energy = 0;  ///< J
   int64_t links = 0;
   WallExchange& operator+=(const WallExchange& o) {
     mass += o.mass, momentum += o.momentum, energy += o.energy, links += o.links;
@@ -34,6 +35,9 @@ struct WallExchange {
 template <class Eos>
 class CutKernel {
  public:
+  /// A wall pressure above this share of the next cell's means a shock between them: the cell's own state goes to the
+  /// wall. A line across the shock would make gas of wrong entropy, which stays at the wall.
+  static constexpr double shock_ratio = 1.5;
   using Flow = typename Eos::Flow;
   using Gas = WallGas<Eos>;
   using State = typename Gas::State;
@@ -42,8 +46,8 @@ class CutKernel {
   explicit CutKernel(const BlockShape& shape) : shape_(shape) {}
 
   /// After BlockKernel::advance with the same arguments: corrects `change` in and near cut cells, 0 in blocked ones.
-  void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt, BlockChange& change,
-               WallExchange& exchange) {
+  void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt,
+               BlockChange& change, WallExchange& exchange) {
     begin(patch, cuts, flow, eos, dt);
     change_ = &change, exchange_ = &exchange;
     mark(change);
@@ -51,21 +55,24 @@ class CutKernel {
       for (int d = 0; d < 3; ++d) {
         if (!shape_.used[size_t(d)]) continue;
         const Cell low = moved(x, d, -1), high = moved(x, d, 1);
-        if (cuts.cut(x.c, d, 0)) add(x, wall_face(x, d, 0), d, 1);
+        if (cuts.cut(x.c, d, 0))
+          add(x, wall_face(x, d, 0), d, 1);
         else {
           const Face f = open_face(low, x, d);
           add(x, f, d, 1);
           if (is_redo_[size_t(low.c)]) add(low, f, d, -1);
         }
-        if (cuts.cut(x.c, d, 1)) add(x, wall_face(x, d, 1), d, -1);
-        else if (!is_redo_[size_t(high.c)]) add(x, open_face(x, high, d), d, -1);
+        if (cuts.cut(x.c, d, 1))
+          add(x, wall_face(x, d, 1), d, -1);
+        else if (!is_redo_[size_t(high.c)])
+          add(x, open_face(x, high, d), d, -1);
       }
     }
     if (change.book_sides) book_sides(change);
   }
 
-  /// Pressure on a wall at x (mid-step) as seen from the open cell (k, j, i) of the block, and the density times sound speed there.
-  /// normal: unit, into the fluid. Call begin() or correct() before.
+  /// Pressure on a wall at x (mid-step) as seen from the open cell (k, j, i) of the block, and the density times sound
+  /// speed there. normal: unit, into the fluid. Call begin() or correct() before.
   struct Load {
     double p, rho_c;
   };
@@ -114,7 +121,7 @@ class CutKernel {
     ptrdiff_t p;
   };
   struct Predicted {
-    State half;               ///< W(t + dt/2)
+    State half;                ///< W(t + dt/2)
     double slope[3][Flow::n];  ///< limited, one-sided at walls
   };
   struct Face {
@@ -139,7 +146,8 @@ class CutKernel {
           const Cell x = cell_at(k, j, i);
           bool redo = cuts_->touched(x.c);
           for (int d = 0; d < 3 && !redo; ++d)
-            if (shape_.used[size_t(d)]) redo = cuts_->touched(x.c - cuts_->step(d)) || cuts_->touched(x.c + cuts_->step(d));
+            if (shape_.used[size_t(d)])
+              redo = cuts_->touched(x.c - cuts_->step(d)) || cuts_->touched(x.c + cuts_->step(d));
           if (!redo) continue;
           for (int q = 0; q < n_flux; ++q) change.row(flow_->cons_row(q), k, j)[i] = 0;
           if (cuts_->blocked(x.c)) continue;
@@ -174,7 +182,8 @@ class CutKernel {
         for (double& s : r.slope[d]) s = 0;
         continue;
       }
-      const State a = low ? ghost(x, mean, d, 0) : read(moved(x, d, -1)), b = high ? ghost(x, mean, d, 1) : read(moved(x, d, 1));
+      const State a = low ? ghost(x, mean, d, 0) : read(moved(x, d, -1)),
+                  b = high ? ghost(x, mean, d, 1) : read(moved(x, d, 1));
       for (size_t q = 0; q < size_t(n); ++q) r.slope[d][q] = MonotonizedCentral::slope(mean[q] - a[q], b[q] - mean[q]);
     }
     Flow::predict(half, r.slope, half_lambda_, patch_->row(Prim::rho_c2, 0, 0)[x.p], patch_->row(Prim::dPi, 0, 0)[x.p]);
@@ -213,7 +222,8 @@ class CutKernel {
     return solve(L, R, c[low.p], c[high.p], d, stored);
   }
 
-  Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], double c_L, double c_R, int d, double stored) const {
+  Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], double c_L, double c_R, int d,
+             double stored) const {
     Face f;
     f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, c_L, c_R, f.F)
                         : d == 1 ? flow_->template flux<1>(L, R, c_L, c_R, f.F)
@@ -227,7 +237,8 @@ class CutKernel {
   Face wall_face(Cell x, int d, int side) {
     const WallSide& w = cuts_->wall(x.c, d, side);
     const double out = side ? 1 : -1;
-    double towards = out * w.n[d];  // < 0; a wall nearly along the line moves over it at no more than half a cell a step
+    double towards =
+        out * w.n[d];  // < 0; a wall nearly along the line moves over it at no more than half a cell a step
     towards = std::min(towards, -0.1);
     const double shift = std::clamp(0.5 * dt_ * dot(w.v, w.n) / (towards * shape_.h[d]), -0.5, 0.5);
     const double s = std::max(w.s + shift, 0.0);
@@ -241,19 +252,18 @@ class CutKernel {
     const Predicted& own = predicted(x);
     half = own.half;
     for (int q = 0; q < n; ++q) inner[q] = half[size_t(q)] + 0.5 * out * own.slope[d][q];
-    State face, star;
-    if (line) {
+    State star = gas_->at_wall(half, w.n, w.v), face = star;
+    if (line && star[Gas::p] < shock_ratio * other[Gas::p]) {
       const State mean = read(x), next = read(moved(x, d, side ? -1 : 1));
       State back = half;  // the slope is the one at t
       for (size_t q = 0; q < size_t(n); ++q) back[q] += next[q] - mean[q];
       star = gas_->at_wall(Gas::beyond(half, back, s), w.n, w.v);
       face = Gas::on_line(star, other, half, (s - 0.5) / (1 + s));
-    } else {
-      face = star = gas_->at_wall(half, w.n, w.v);
     }
     double beyond[n];
     for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
-    const double c_in = patch_->row(Prim::c, 0, 0)[x.p], c_wall = std::sqrt(std::max(gas_->rho_c2(star), 0.0) / Gas::rho(star));
+    const double c_in = patch_->row(Prim::c, 0, 0)[x.p],
+                 c_wall = std::sqrt(std::max(gas_->rho_c2(star), 0.0) / Gas::rho(star));
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, c_in, c_wall, d, stored) : solve(beyond, inner, c_wall, c_in, d, stored);
     const double volume = out * shape_.cell_volume();
@@ -295,9 +305,9 @@ class CutKernel {
   ptrdiff_t stride_[3] = {};
   const double* row_[Flow::n] = {};
   std::vector<Cell> redo_;
-  std::vector<uint8_t> is_redo_;   ///< by patch cell
-  std::vector<ptrdiff_t> place_;   ///< by patch cell: offset in the change's rows
-  std::vector<int32_t> slot_;      ///< by patch cell: into predicted_, -1: not yet
+  std::vector<uint8_t> is_redo_;  ///< by patch cell
+  std::vector<ptrdiff_t> place_;  ///< by patch cell: offset in the change's rows
+  std::vector<int32_t> slot_;     ///< by patch cell: into predicted_, -1: not yet
   std::vector<Predicted> predicted_;
 };
 

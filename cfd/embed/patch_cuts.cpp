@@ -78,9 +78,15 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
       if (s.index >= 0 && s.index < n) continue;
       const bool up = s.index >= n;
       switch (rules[2 * d + size_t(up)]) {
-        case GhostRule::mirror: s = {up ? 2 * n - 1 - s.index : -1 - s.index, true}; break;
-        case GhostRule::copy: s.index = up ? n - 1 : 0; break;
-        case GhostRule::periodic: s.index += up ? -n : n; break;
+        case GhostRule::mirror:
+          s = {up ? 2 * n - 1 - s.index : -1 - s.index, true};
+          break;
+        case GhostRule::copy:
+          s.index = up ? n - 1 : 0;
+          break;
+        case GhostRule::periodic:
+          s.index += up ? -n : n;
+          break;
       }
     }
     lower[d] -= g_[d];
@@ -88,7 +94,8 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   }
   any_ = map.touches(lower, upper);
   for (size_t d = 0; d < 3; ++d)  // ghosts from the other end of a periodic domain
-    if (g_[d] > 0 && (rules[2 * d] == GhostRule::periodic)) any_ = any_ || lower[d] < 0 || upper[d] > map.lattice().n[d];
+    if (g_[d] > 0 && (rules[2 * d] == GhostRule::periodic))
+      any_ = any_ || lower[d] < 0 || upper[d] > map.lattice().n[d];
   all_blocked_ = false;
   if (!any_) return;
 

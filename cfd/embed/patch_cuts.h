@@ -31,9 +31,9 @@ class PatchCuts {
   bool cut(int c, int d, int side) const { return bits_[size_t(c)] & (1u << (2 * d + side)); }
   bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts); }
   const WallSide& wall(int c, int d, int side) const { return walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
-  bool any() const { return any_; }                    ///< anything but open fluid?
-  bool all_blocked() const { return all_blocked_; }    ///< no fluid in the block itself
-  int orphans() const { return orphans_; }             ///< links into metal that no face cuts (open surfaces)
+  bool any() const { return any_; }                  ///< anything but open fluid?
+  bool all_blocked() const { return all_blocked_; }  ///< no fluid in the block itself
+  int orphans() const { return orphans_; }           ///< links into metal that no face cuts (open surfaces)
   const BlockShape& shape() const { return shape_; }
 
  private:

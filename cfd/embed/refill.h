@@ -6,15 +6,20 @@
 
 namespace bw::cfd {
 
+/// Least density and pressure of a fresh cell in shares of its neighbour's.
+inline constexpr double refill_share = 1e-3;
+
 /// Mean over the directions with a valid neighbour A (open, not fresh, link not cut):
-/// - wall on the other side: on the line from the wall's state (half-Riemann of the gas at A, prolonged through B behind it) to A, with
+/// - wall on the other side: on the line from the wall's state (half-Riemann of the gas at A, prolonged through B
+/// behind it) to A, with
 ///   weight n_d^2: inside the range of the two;
 /// - else the line through B and A prolonged, or A; with a small weight.
 /// Composition comes from the neighbour of the largest weight and neighbours like it: nothing is mixed.
-/// Returns false if there is no valid neighbour. The patch must hold the cell's surroundings; out: rows of the flow model.
+/// Returns false if there is no valid neighbour. The patch must hold the cell's surroundings; out: rows of the flow
+/// model.
 template <class Eos>
-bool refill(const Patch& patch, const PatchCuts& cuts, const typename Eos::Flow& flow, const Eos& eos, const Index3& cell,
-            typename WallGas<Eos>::State& out) {
+bool refill(const Patch& patch, const PatchCuts& cuts, const typename Eos::Flow& flow, const Eos& eos,
+            const Index3& cell, typename WallGas<Eos>::State& out) {
   using Gas = WallGas<Eos>;
   using State = typename Gas::State;
   constexpr int n = Gas::n;
@@ -53,6 +58,10 @@ bool refill(const Patch& patch, const PatchCuts& cuts, const typename Eos::Flow&
         value[count] = Gas::beyond(A, B, 1);
         weight[count] = 0.005;
       }
+      // behind a wall that runs away from its gas: near vacuum, but not less in every next cell
+      if (Gas::rho(value[count]) < refill_share * Gas::rho(A))
+        for (int q = 0; q < Gas::densities; ++q) value[count][size_t(q)] = refill_share * A[size_t(q)];
+      value[count][Gas::p] = std::max(value[count][Gas::p], refill_share * A[Gas::p]);
       if (weight[count] > most) most = weight[count], primary = count;
       ++count;
     }

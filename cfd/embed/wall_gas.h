@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gas at a wall, in the rows of a flow model (cfd/scheme/flow_model.h): its equation of state, its state at the wall, and
-// the one-sided line through that state.
+// The gas at a wall, in the rows of a flow model (cfd/scheme/flow_model.h): its equation of state, its state at the
+// wall, and the one-sided line through that state.
 #pragma once
 #include <array>
 #include <type_traits>
@@ -15,10 +15,22 @@ namespace bw::cfd {
 struct GasAtWall {
   using Flow = GasFlow;
   double over_G, Pi;
-  template <class W> double G(const W&) const { return over_G; }
-  template <class W> double pi(const W&) const { return Pi; }
-  template <class W> double stiffness(const W&) const { return Pi; }
-  template <class W> bool ideal(const W&) const { return true; }
+  template <class W>
+  double G(const W&) const {
+    return over_G;
+  }
+  template <class W>
+  double pi(const W&) const {
+    return Pi;
+  }
+  template <class W>
+  double stiffness(const W&) const {
+    return Pi;
+  }
+  template <class W>
+  bool ideal(const W&) const {
+    return true;
+  }
 };
 
 /// Equation of state of MixedFlow.
@@ -26,12 +38,26 @@ template <class Mix>
 struct MixtureAtWall {
   using Flow = MixedFlow;
   const Mix& mix;
-  template <class W> double G(const W& w) const { return mix.closure().G(w[Prim::alpha1]); }
-  template <class W> PiTerms<double> sum(const W& w) const { return mix.pi_sum(w[Prim::arho1], w[Prim::arho2], w[Prim::alpha1]); }
-  template <class W> double pi(const W& w) const { return sum(w).pi; }
-  template <class W> double stiffness(const W& w) const { return sum(w).stiffness; }
-  template <class W> bool ideal(const W& w) const {
-    constexpr bool first = std::decay_t<decltype(mix.m1)>::constant_reference, second = std::decay_t<decltype(mix.m2)>::constant_reference;
+  template <class W>
+  double G(const W& w) const {
+    return mix.closure().G(w[Prim::alpha1]);
+  }
+  template <class W>
+  PiTerms<double> sum(const W& w) const {
+    return mix.pi_sum(w[Prim::arho1], w[Prim::arho2], w[Prim::alpha1]);
+  }
+  template <class W>
+  double pi(const W& w) const {
+    return sum(w).pi;
+  }
+  template <class W>
+  double stiffness(const W& w) const {
+    return sum(w).stiffness;
+  }
+  template <class W>
+  bool ideal(const W& w) const {
+    constexpr bool first = std::decay_t<decltype(mix.m1)>::constant_reference,
+                   second = std::decay_t<decltype(mix.m2)>::constant_reference;
     return (first || w[Prim::alpha1] == 0) && (second || w[Prim::alpha1] == 1);
   }
 };
@@ -44,8 +70,10 @@ struct WallGas {
   Eos eos;
 
   static double rho(const State& w) {
-    if constexpr (Flow::mixed) return w[0] + w[1];
-    else return w[0];
+    if constexpr (Flow::mixed)
+      return w[0] + w[1];
+    else
+      return w[0];
   }
   static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
   double rho_c2(const State& w) const {
@@ -72,8 +100,8 @@ struct WallGas {
     return at;
   }
 
-  /// w + share (w - other), the line from a neighbour through w prolonged towards a wall: less of it where density or pressure would
-  /// change by more than a factor of two. Composition is w's; where it varies, so are the densities.
+  /// w + share (w - other), the line from a neighbour through w prolonged towards a wall: less of it where density or
+  /// pressure would change by more than a factor of two. Composition is w's; where it varies, so are the densities.
   static State beyond(const State& w, const State& other, double share) {
     State out = w;
     double keep = 1;
@@ -98,13 +126,16 @@ struct WallGas {
     const bool uniform = same_composition(own, other);
     for (int q = 0; q < n; ++q)
       if (uniform || (q >= v && q <= p)) out[size_t(q)] += share * (other[size_t(q)] - star[size_t(q)]);
-    const bool physical = out[p] > 0.2 * star[p] && rho(out) > 0.2 * rho(star) && out[p] < 5 * star[p] && rho(out) < 5 * rho(star);
+    const bool physical =
+        out[p] > 0.2 * star[p] && rho(out) > 0.2 * rho(star) && out[p] < 5 * star[p] && rho(out) < 5 * rho(star);
     return physical ? out : star;
   }
 
   static bool same_composition(const State& a, const State& b) {
-    if constexpr (Flow::mixed) return std::abs(a[Prim::alpha1] - b[Prim::alpha1]) < 1e-10;
-    else return true;
+    if constexpr (Flow::mixed)
+      return std::abs(a[Prim::alpha1] - b[Prim::alpha1]) < 1e-10;
+    else
+      return true;
   }
 };
 

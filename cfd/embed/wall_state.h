@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half of a Riemann problem: gas against a wall that moves towards it with dv (> 0: compression). The state at the wall has the
-// wall's normal velocity; the wave between it and the gas is
-//   a shock,   by the Hugoniot of the stiffened gas with the Gruneisen coefficient and the sound speed of the gas ahead, closed form
+// Half of a Riemann problem: gas against a wall that moves towards it with dv (> 0: compression). The state at the wall
+// has the wall's normal velocity; the wave between it and the gas is
+//   a shock,   by the Hugoniot of the stiffened gas with the Gruneisen coefficient and the sound speed of the gas
+//   ahead, closed form
 //              (exact for an ideal and a stiffened gas),
-//   or a fan,  along the isentrope of the equation of state; closed form for ideal and stiffened gases, integrated else; p* >= 0.
+//   or a fan,  along the isentrope of the equation of state; closed form for ideal and stiffened gases, integrated
+//   else; p* >= 0.
 // The linear p + rho c dv goes negative on a case that recedes at 1-2 km/s.
 #pragma once
 #include <algorithm>
@@ -46,9 +48,9 @@ inline WallStar fan(double rho, double p, double rho_c2, double G, double dv) {
   return {p_star, std::pow(share, 2 / (g.gamma - 1))};
 }
 
-/// The fan of any equation of state, fourth order in steps of c/2. With gamma = 1 + 1/G, z = (rho*/rho)^((gamma - 1)/2) and
-/// Q = p* (rho*/rho)^-gamma:  dz/dv = (gamma - 1)/2 z/c,  dQ/dv = (rho c^2 - gamma p) (rho*/rho)^-gamma/c;
-/// z linear and Q constant for an ideal gas. stiffness(r, p) = rho c^2 at rho* = r rho.
+/// The fan of any equation of state, fourth order in steps of c/2. With gamma = 1 + 1/G, z = (rho*/rho)^((gamma - 1)/2)
+/// and Q = p* (rho*/rho)^-gamma:  dz/dv = (gamma - 1)/2 z/c,  dQ/dv = (rho c^2 - gamma p) (rho*/rho)^-gamma/c; z linear
+/// and Q constant for an ideal gas. stiffness(r, p) = rho c^2 at rho* = r rho.
 template <class Stiffness>
 WallStar fan(double rho, double p, double G, double dv, const Stiffness& stiffness) {
   const double gamma = 1 + 1 / G, over_m = 2 / (gamma - 1);
@@ -79,7 +81,8 @@ WallStar fan(double rho, double p, double G, double dv, const Stiffness& stiffne
 }
 }  // namespace detail
 
-/// rho, p, rho_c2: the gas; G = sum alpha/Gruneisen; ideal: fan() in closed form is exact; stiffness(r, p): rho c^2 on its isentrope.
+/// rho, p, rho_c2: the gas; G = sum alpha/Gruneisen; ideal: fan() in closed form is exact; stiffness(r, p): rho c^2 on
+/// its isentrope.
 template <class Stiffness>
 WallStar wall_star(double rho, double p, double rho_c2, double G, double dv, bool ideal, const Stiffness& stiffness) {
   if (dv == 0) return {p, 1};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A domain of one block, with walls in it: what the program does for many blocks, for the tests of the embedded boundary.
+// A domain of one block, with walls in it: what the program does for many blocks, for the tests of the embedded
+// boundary.
 #pragma once
 #include "cfd/embed/cut_kernel.h"
 #include "cfd/embed/motion.h"
@@ -14,7 +15,8 @@ struct OneBlock {
   using Eos = MixtureAtWall<Mix>;
   using W = std::array<double, Prim::count>;
 
-  OneBlock(const Lattice& g, Mix m, GhostRule rule = GhostRule::mirror) : lattice(g), mix(m), flow{m.closure()}, shape(shape_of(g)) {
+  OneBlock(const Lattice& g, Mix m, GhostRule rule = GhostRule::mirror)
+      : lattice(g), mix(m), flow{m.closure()}, shape(shape_of(g)) {
     rules.fill(rule);
     patch = Patch(shape);
     patch.lower = g.lower;
@@ -30,7 +32,8 @@ struct OneBlock {
     return s;
   }
   /// State of every cell: paint(x) -> rho1*alpha1, rho2*alpha2, v, p, alpha1.
-  template <class Paint> void paint(const Paint& paint) {
+  template <class Paint>
+  void paint(const Paint& paint) {
     for_cells([&](int k, int j, int i) { set(k, j, i, paint(lattice.centre({i, j, k}))); });
   }
   void set(int k, int j, int i, const W& w) {
@@ -118,7 +121,8 @@ struct OneBlock {
           if (!blocked(k, j, i)) sum += density({i, j, k});
     return sum;
   }
-  template <class Body> void for_cells(const Body& body) {
+  template <class Body>
+  void for_cells(const Body& body) {
     for (int k = 0; k < shape.n[2]; ++k)
       for (int j = 0; j < shape.n[1]; ++j)
         for (int i = 0; i < shape.n[0]; ++i) body(k, j, i);
@@ -138,9 +142,15 @@ struct OneBlock {
             if (from[d] >= 0 && from[d] < n) continue;
             const bool up = from[d] >= n;
             switch (rules[size_t(2 * d + up)]) {
-              case GhostRule::mirror: from[d] = up ? 2 * n - 1 - from[d] : -1 - from[d], flip[d] = true; break;
-              case GhostRule::copy: from[d] = up ? n - 1 : 0; break;
-              case GhostRule::periodic: from[d] += up ? -n : n; break;
+              case GhostRule::mirror:
+                from[d] = up ? 2 * n - 1 - from[d] : -1 - from[d], flip[d] = true;
+                break;
+              case GhostRule::copy:
+                from[d] = up ? n - 1 : 0;
+                break;
+              case GhostRule::periodic:
+                from[d] += up ? -n : n;
+                break;
             }
           }
           double in[Cons::count], w[Prim::stored];
@@ -166,13 +176,17 @@ struct OneBlock {
   WallExchange exchange;
   double added = 0, removed = 0;  // kg by refilling and covering
   int64_t refilled = 0;
-  BlockKernel<MixedFlow, double> kernel{shape};
+  BlockKernel<MixedFlow, Pack> kernel{shape};
   CutKernel<Eos> cut{shape};
 };
 
 using TwoGases = FiveEquation<IdealGas, IdealGas>;
 /// Gas 2 (material 1 absent).
-inline std::array<double, Prim::count> gas(double rho, const Vec3& v, double p) { return {0, rho, v.x, v.y, v.z, p, 0, 0}; }
-inline std::array<double, Prim::count> gas_1(double rho, const Vec3& v, double p) { return {rho, 0, v.x, v.y, v.z, p, 1, 0}; }
+inline std::array<double, Prim::count> gas(double rho, const Vec3& v, double p) {
+  return {0, rho, v.x, v.y, v.z, p, 0, 0};
+}
+inline std::array<double, Prim::count> gas_1(double rho, const Vec3& v, double p) {
+  return {rho, 0, v.x, v.y, v.z, p, 1, 0};
+}
 
 }  // namespace bw::cfd::test

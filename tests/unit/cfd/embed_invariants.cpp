@@ -19,7 +19,8 @@ TEST(EmbedInvariants, UniformFlowWithComovingWalls) {  // F13a
   const Vec3 v{100, 50, 20};
   b.paint([&](const Vec3&) { return gas(1.2, v, 1e5); });
   WetSurface s = sphere({0.4, 0.45, 0.4}, 0.17, 6);
-  WetSurface thin = plate({0.7, 0.45, 0.4}, {0.2, 0.3, 0}, {0, 0.1, 0.4}, 3), slab = box({0.1, 0.1, 0.1}, {0.13, 0.6, 0.6}, 2);
+  WetSurface thin = plate({0.7, 0.45, 0.4}, {0.2, 0.3, 0}, {0, 0.1, 0.4}, 3),
+             slab = box({0.1, 0.1, 0.1}, {0.13, 0.6, 0.6}, 2);
   rotate(slab, unit(Vec3{1, 2, 3}), 0.4, {0.1, 0.3, 0.3});
   append(s, thin);
   append(s, slab);
@@ -34,7 +35,8 @@ TEST(EmbedInvariants, UniformFlowWithComovingWalls) {  // F13a
     b.for_cells([&](int k, int j, int i) {
       if (b.blocked(k, j, i)) return;
       const auto w = b.get(k, j, i);
-      grow(worst, {w[1] / 1.2 - 1, w[Prim::v] / 100 - 1, w[Prim::v_y] / 50 - 1, w[Prim::v_z] / 20 - 1, w[Prim::p] / 1e5 - 1});
+      grow(worst,
+           {w[1] / 1.2 - 1, w[Prim::v] / 100 - 1, w[Prim::v_y] / 50 - 1, w[Prim::v_z] / 20 - 1, w[Prim::p] / 1e5 - 1});
     });
   }
   EXPECT_LT(worst, 1e-12);
@@ -77,8 +79,8 @@ double leak(const WetSurface& s, int steps, int n = 12) {
   b.for_cells([&](int k, int j, int i) {
     const auto w = b.get(k, j, i);
     const bool high = sides.blocked({i, j, k});
-    grow(worst, {w[1] / (high ? 100 : 1.2) - 1, w[Prim::p] / (high ? 1e7 : 1e5) - 1, w[Prim::v] / 340, w[Prim::v_y] / 340,
-                 w[Prim::v_z] / 340});
+    grow(worst, {w[1] / (high ? 100 : 1.2) - 1, w[Prim::p] / (high ? 1e7 : 1e5) - 1, w[Prim::v] / 340,
+                 w[Prim::v_y] / 340, w[Prim::v_z] / 340});
   });
   return worst;
 }
@@ -87,12 +89,14 @@ TEST(EmbedInvariants, ThinPlateDoesNotLeak) {  // F13c
   WetSurface tilted = box({-1, -1, -1}, {0.47, 2, 2}, 1);
   rotate(tilted, unit(Vec3{0, 0.3, 1}), 0.37, {0.5, 0.5, 0.5});
   EXPECT_LT(leak(tilted, 200), 1e-12);
-  EXPECT_LT(leak(box({-1, -1, -1}, {0.5, 2, 2}, 5), 200), 1e-12);       // on cell faces
-  EXPECT_LT(leak(box({-1, -1, -1}, {0.625, 2, 2}, 24), 200), 1e-12);    // on centres, nodes too
+  EXPECT_LT(leak(box({-1, -1, -1}, {0.5, 2, 2}, 5), 200), 1e-12);     // on cell faces
+  EXPECT_LT(leak(box({-1, -1, -1}, {0.625, 2, 2}, 24), 200), 1e-12);  // on centres, nodes too
   EXPECT_LT(leak(sphere({0.5, 0.5, 0.5}, 0.3, 5), 200), 1e-12);
   EXPECT_LT(leak(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}, 3), 200), 1e-12);
 }
-TEST(EmbedInvariants, ThinPlateDoesNotLeakInTenThousandSteps) { EXPECT_LT(leak(sphere({0.5, 0.5, 0.5}, 0.31, 4), 10000, 8), 1e-12); }
+TEST(EmbedInvariants, ThinPlateDoesNotLeakInTenThousandSteps) {
+  EXPECT_LT(leak(sphere({0.5, 0.5, 0.5}, 0.31, 4), 10000, 8), 1e-12);
+}
 
 TEST(EmbedInvariants, MovingThinPlateKeepsTheTracerOnItsSide) {  // F13c, moving
   OneBlock<TwoGases> b({{}, {0.05, 0.05, 1}, {30, 16, 1}}, {});
@@ -115,13 +119,16 @@ TEST(EmbedInvariants, MovingThinPlateKeepsTheTracerOnItsSide) {  // F13c, moving
     b.for_cells([&](int k, int j, int i) {
       const auto w = b.get(k, j, i);
       const bool ahead = dot(b.lattice.centre({i, j, k}) - on_plate, n) > 0;
-      if (ahead) grow(crossed, {w[0], w[Prim::alpha1]});
-      else grow(crossed, {w[1], w[Prim::alpha1] - 1});
+      if (ahead)
+        grow(crossed, {w[0], w[Prim::alpha1]});
+      else
+        grow(crossed, {w[1], w[Prim::alpha1] - 1});
     });
   }
   EXPECT_EQ(crossed, 0);
   EXPECT_GT(fresh, 50);
-  std::printf("refilled %ld cells, mass added %.3g removed %.3g of %.3g kg\n", long(fresh), b.added, b.removed, b.mass());
+  std::printf("refilled %ld cells, mass added %.3g removed %.3g of %.3g kg\n", long(fresh), b.added, b.removed,
+              b.mass());
 }
 
 }  // namespace
