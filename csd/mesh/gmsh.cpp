@@ -60,6 +60,13 @@ Quad sorted(Quad q) {
   return q;
 }
 
+void check_distinct(const GmshFile& file, const GmshElement& e) {
+  for (int a = 0; a < gmsh_node_count(e.type); ++a)
+    for (int b = 0; b < a; ++b)
+      if (const int64_t node = e.nodes[size_t(a)]; node == e.nodes[size_t(b)])
+        throw InputError(fmt::format("{}: element {} uses node {} twice", file.at(e.offset), e.tag, node));
+}
+
 /// Nodes of the points, edges and faces that lower-dimensional elements name; the quads of the faces.
 struct Named {
   std::map<std::string, std::set<int32_t>> nodes;
@@ -136,6 +143,7 @@ Mesh Gmsh::make() const {
   size_t next = 0;  // hex of the split
   for (const GmshElement& e : raw.elements) {
     if (gmsh_dimension(e.type) != 3) continue;
+    check_distinct(raw, e);
     for (int k = 0; k < (e.type == tetrahedron ? 4 : 1); ++k) {
       std::array<NodeId, 8> h;
       for (size_t a = 0; a < 8; ++a) h[a] = NodeId(e.type == hexahedron ? points(e, int(a)) : split.hexes[next][a]);

@@ -159,6 +159,7 @@ Mesh Weapon::make() const {
   ShellCount count;
   count.around = around > 0 ? around : is_demo ? 56 : is_paper ? 136 : 232;
   count.through = through > 0 ? through : is_demo ? 2 : is_paper ? 3 : 4;
+  count.is_split = is_split;
   Mesh mesh = loft(profile(), count);
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {
     const ElemId e(i);

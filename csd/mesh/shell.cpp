@@ -136,11 +136,12 @@ Mesh loft(const Profile& profile, const ShellCount& count) {
   Quads q;
   q.p.resize(skin.p.size());
   q.quad = skin.quad;
-  Swept s = sweep(q, count.through, [&](int i, int l) {
+  const auto place = [&](int i, int l) {
     const auto& p = skin.p[size_t(i)];
     const ProfilePoint at = line.at(p.s, double(l) / count.through);
     return Vec3{at.r * p.c, at.r * p.d, at.z};
-  });
+  };
+  Swept s = sweep(q, count.through, place, count.is_split);
   s.add_set("inner", [&](int, int l) { return l == 0; });
   s.add_set("outer", [&](int, int l) { return l == count.through; });
   return std::move(s.mesh);

@@ -27,6 +27,7 @@ struct ShellCount {
   int around = 32;          ///< elements around, a multiple of 8
   int through = 2;          ///< elements through the wall
   double element_size = 0;  ///< length of elements along the profile; 0: as around the widest place
+  bool is_split = false;    ///< each hex through six tetrahedra into 24 hexes
 };
 /// Hexes between the profiles about the z axis; face and node sets inner and outer.
 Mesh loft(const Profile& profile, const ShellCount& count);
@@ -115,6 +116,7 @@ struct ShellOfRevolution {
     k.optional("element_size", count.element_size, dim::length,
                "length of elements along the profile; 0: as around the widest place");
     k.expect(count.element_size >= 0, "element_size", "0 or a positive length");
+    k.optional("split", count.is_split, "each hex through six tetrahedra into 24 hexes");
     k.choice("axis", axis, {"x", "y", "z"}, "direction of the axis");
     k.optional("base", base, dim::length, "where the profile's z = 0, r = 0 lies");
   }
@@ -129,6 +131,7 @@ struct Weapon {
   double length = 1.5, diameter = 0.273, wall = 0.012, nose_length = 0.52, nose_radius = 0.045, nose_plug = 0.06,
          tail_length = 0.35, tail_diameter = 0.21, tail_wall = 0.022, base_plug = 0.04;
   int around = 0, through = 0;
+  bool is_split = false;
   static constexpr auto name = "weapon";
   template <class K>
   void describe(K& k) {
@@ -146,6 +149,8 @@ struct Weapon {
     k.optional("base_plug", base_plug, dim::length, "thickness of the base");
     k.optional("around", around, "elements around, a multiple of 8; 0: by size");
     k.optional("through", through, "elements through the wall; 0: by size");
+    k.optional("split", is_split,
+               "each hex through six tetrahedra into 24 hexes (give `around` and `through` for coarser ones)");
     k.expect(wall > 0 && 2 * wall < diameter, "wall", "between 0 and half the diameter");
     k.expect(tail_wall > 0 && 2 * tail_wall < tail_diameter && tail_diameter <= diameter, "tail_diameter",
              "between 2 tail_wall and the diameter");

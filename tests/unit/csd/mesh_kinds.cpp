@@ -206,6 +206,15 @@ TEST(MeshKinds, SizesOfTheWeapon) {
   }
 }
 
+TEST(MeshKinds, WeaponThroughTetrahedra) {
+  const Made m = make("kind='weapon'\nsplit=true\naround=32\nthrough=1");
+  std::printf("weapon split: %s\n", summary(m.quality).c_str());
+  EXPECT_GE(m.quality.min_scaled_jacobian, 0.05);
+  EXPECT_TRUE(is_closed(m.mesh, m.mesh.face_sets.at("inner")));
+  EXPECT_TRUE(is_closed(m.mesh, m.mesh.face_sets.at("outer")));
+  EXPECT_EQ(Topology(m.mesh).find_fault(m.mesh), "");
+}
+
 TEST(MeshKinds, QuartersLieExactlyOnTheirPlanes) {
   const Made m = make("kind='cylinder'\nradius=1\nlength=2\nacross=6\nalong=2\nsector='quarter'");
   for (const NodeId n : m.mesh.node_sets.at("cut_x")) EXPECT_EQ(m.mesh.X[n].x, 0);
