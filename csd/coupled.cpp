@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/app/version.h"
+#include "common/io/file.h"
 #include "coupling/loads.h"
 #include "csd/load/sets.h"
 #include "csd/step.h"
@@ -32,6 +33,7 @@ Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m) : case_(c
     faces_ = face_sets(m.mesh, cs.solid.wet.faces, cs.solid.wet.place);
   if (!m.physics.loads) m.physics.loads.emplace(m.mesh, std::vector<LoadKind>{});
   renew_surface(m);
+  make_folder(cs.run.output.directory);
   side_ = std::make_unique<coupling::SolidSide>(channel, cs.coupling, hello_of(cs, m, wet_),
                                                 cs.run.output.directory + "/coupling_history.csv");
 }

@@ -2,6 +2,8 @@
 if(TARGET bw_coupling)
   add_executable(coupled_dummy coupled/dummy.cpp coupled/solid.cpp coupled/fluid.cpp)
   add_executable(coupled_piston coupled/piston.cpp)
+  add_executable(coupled_simple_wave coupled/simple_wave.cpp)
+  target_link_libraries(coupled_simple_wave PRIVATE bw_coupling)
   target_link_libraries(coupled_dummy PRIVATE bw_coupling)
   target_link_libraries(coupled_piston PRIVATE bw_coupling)
   foreach(group exchange messages accidents starts)
@@ -13,4 +15,8 @@ if(TARGET bw_coupling)
     set_tests_properties(coupled_order_${scheme} PROPERTIES ENVIRONMENT
       "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_hwloc_base_binding_policy=none;OMPI_MCA_mpi_yield_when_idle=1;OMP_WAIT_POLICY=passive")
   endforeach()
+  if(TARGET csd)
+    add_test(NAME coupled_simple_wave COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/simple_wave.py
+             $<TARGET_FILE_DIR:csd> ${CMAKE_CURRENT_BINARY_DIR}/simple_wave)
+  endif()
 endif()

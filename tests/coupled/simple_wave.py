@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The real csd with a piston of 1 kg/m^2 against an exact fluid (simple_wave.cpp): VALIDATION C1 and the order of both schemes in time.
+
+simple_wave.py <folder of executables> <folder for results>
+"""
+import csv
+import math
+import os
+import subprocess
+import sys
+
+FOLDER, OUT = sys.argv[1:3]
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive",
+                   OMP_NUM_THREADS="1")
+CASE = """
+[time]
+end = "1 ms"
+[output]
+directory = "{out}"
+[[solid.body]]
+name = "piston"
+mesh = {{kind = "box", lower = [0, 0, 0], upper = ["10 mm", "10 mm", "10 mm"], cells = [1, 1, 1]}}
+material = {{kind = "neo_hooke", density = 100, young_modulus = "1 GPa", poisson_ratio = 0.0}}
+{rollers}
+[solid.wet]
+faces = ["x_lower"]
+[coupling]
+scheme = "{scheme}"
+reference_pressure = 0
+"""
+ROLLERS = "\n".join(f'[[solid.condition]]\nkind = "roller"\nnodes = "{axis}_{end}"\nnormal = {normal}'
+                    for axis, normal in (("y", [0, 1, 0]), ("z", [0, 0, 1])) for end in ("lower", "upper"))
+AREA, MASS_PER_AREA, P0, RHO0, GAMMA = 1e-4, 1.0, 101325.0, 1.225, 1.4
+
+
+def exact_velocity(t):
+    c0 = math.sqrt(GAMMA * P0 / RHO0)
+    y = (1 + (GAMMA + 1) / 2 * P0 * t / (MASS_PER_AREA * c0)) ** (-(GAMMA - 1) / (GAMMA + 1))
+    return 2 * c0 / (GAMMA - 1) * (1 - y)
+
+
+def table(name):
+    with open(name) as file:
+        rows = list(csv.reader(file))
+    return [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
+
+
+def run(scheme, window):
+    """Error of the piston's momentum at 1 ms; its ledger must close."""
+    out = f"{OUT}/{scheme}_{window:g}"
+    os.makedirs(out, exist_ok=True)
+    with open(f"{out}/case.toml", "w") as file:
+        file.write(CASE.format(out=out, scheme=scheme, rollers=ROLLERS))
+    command = f"mpirun -n 1 {FOLDER}/csd {out}/case.toml : -n 1 {FOLDER}/coupled_simple_wave {scheme} {window}"
+    subprocess.run(command.split(), env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL, timeout=60)
+    solid, ledger = table(f"{out}/solid_history.csv"), table(f"{out}/coupling_history.csv")
+    if max(row["impulse_defect [1]"] for row in ledger) > 1e-12:
+        sys.exit(f"{scheme} {window}: the ledger does not close")
+    got = sum(row["impulse_x [N s]"] for row in ledger)
+    momentum = solid[-1]["momentum x [kg m/s]"]
+    if abs(got - momentum) > 1e-9 * got:
+        sys.exit(f"{scheme} {window}: impulse received {got}, momentum {momentum}")
+    u = momentum / (MASS_PER_AREA * AREA)
+    return u / exact_velocity(1e-3) - 1
+
+
+failed = False
+# fluid_first: what is left is the piston's own elasticity, 1e-5, whatever the window
+for scheme, order_wanted, coarsest_wanted in ("fluid_first", None, 1e-4), ("box1", 0.9, 2e-2):
+    errors = [run(scheme, window) for window in (8e-5, 4e-5, 2e-5)]
+    order = math.log2(abs(errors[0] / errors[-1])) / 2
+    bad = abs(errors[0]) > coarsest_wanted or (order_wanted and order < order_wanted)
+    failed |= bad
+    print(f"{'FAILED' if bad else 'ok':6} {scheme:12} errors of u(1 ms): {', '.join(f'{e:+.2e}' for e in errors)}; order {order:.2f}")
+sys.exit(failed)
