@@ -71,7 +71,7 @@ failed = False
 for scheme, order_wanted, coarsest_wanted in ("fluid_first", None, 1e-4), ("box1", 0.9, 2e-2):
     errors = [run(scheme, window) for window in (8e-5, 4e-5, 2e-5)]
     order = math.log2(abs(errors[0] / errors[-1])) / 2
-    bad = abs(errors[0]) > coarsest_wanted or (order_wanted and order < order_wanted)
+    bad = abs(errors[0]) > coarsest_wanted or (order_wanted is not None and order < order_wanted)
     failed |= bad
     print(f"{'FAILED' if bad else 'ok':6} {scheme:12} errors of u(1 ms): {', '.join(f'{e:+.2e}' for e in errors)}; order {order:.2f}")
 sys.exit(failed)
