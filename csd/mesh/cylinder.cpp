@@ -40,7 +40,7 @@ void add_cuts(Swept& s, const Quads& q, const std::string& axis, const std::stri
 
 Mesh Cylinder::make() const {
   const int core = std::max(1, across / 2);
-  const Quads q = cut_sector(quad_disc(core, across - core), sector);
+  const Quads q = cut_sector(quad_disc(core, across - core, double(core) / across), sector);
   const auto g = graded(along, grading);
   Swept s = sweep(
       q, along,

@@ -58,17 +58,16 @@ Quads quad_annulus(int around, int rings) {
   return q;
 }
 
-Quads quad_disc(int core, int rings) {
+Quads quad_disc(int core, int rings, double middle) {
   const int k = core, n = 8 * k;
-  const double mid = double(k) / (k + rings);  // radius of the core's mid-side
   const double bulge =
-      1 + 0.22 * std::min(1.0, 1 / mid - 1);  // its corner is this much farther out: between circle and square
+      1 + 0.22 * std::min(1.0, 1 / middle - 1);  // its corner is this much farther out: between circle and square
   // point of the core's shell s in [0, 1], t in [-1, 1] along the side at +x
   const auto shell = [&](double s, double t) -> Quads::Point {
     const double angle = (1 - s) * std::atan(t) + s * pi / 4 * t,
                  corner = std::numbers::sqrt2 + (bulge - std::numbers::sqrt2) * s;
     const double rise = (1 / std::cos(pi / 4 * t) - 1) / (std::numbers::sqrt2 - 1);  // 0 at mid-side, 1 at the corner
-    const double radius = s * mid * (1 + (corner - 1) * rise);
+    const double radius = s * middle * (1 + (corner - 1) * rise);
     return {radius * std::cos(angle), radius * std::sin(angle)};
   };
   Quads q;

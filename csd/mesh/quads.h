@@ -25,8 +25,9 @@ Quads quad_grid(int nx, int ny);
 /// angle of b.
 Quads quad_annulus(int around, int rings);
 /// Unit disc without a degenerate centre: a core of (2 core)^2 cells inside `rings` rings of 8 core cells
-/// ("butterfly"). The last 8 core points are the rim, counter-clockwise from -45 degrees.
-Quads quad_disc(int core, int rings);
+/// ("butterfly"), which
+/// begin at the radius `middle` on the axes. The last 8 core points are the rim, counter-clockwise from -45 degrees.
+Quads quad_disc(int core, int rings, double middle);
 /// Only the quads in x >= 0 and y >= 0 ("quarter"), y >= 0 ("half") or all ("full").
 Quads cut_sector(const Quads& q, const std::string& sector);
 /// Unit vector of the angle 2 pi b / n, exact at the quarters if n is a multiple of 4.

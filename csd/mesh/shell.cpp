@@ -93,13 +93,18 @@ struct Skin {
   }
 };
 
+constexpr double low_fraction = 0.6, high_fraction = 0.75;  // of a disc's radius that its core may reach to
+
 Skin make_skin(const MiddleLine& line, const ShellCount& count) {
   const int n = count.around, core = n / 8;
   const double h = count.element_size > 0 ? count.element_size : 2 * pi * line.widest() / n;
   const double low = line.disc_end(false), high = line.length() - line.disc_end(true);
-  // at least a third as many rings as core cells: a core that nearly fills its disc has flat corners
-  const auto rings = [&](double reach) { return std::max((core + 2) / 3, int(std::lround(reach / h)) - core); };
-  const Quads lower = quad_disc(core, rings(low)), upper = quad_disc(core, rings(line.length() - high));
+  // a core that nearly fills its disc has flat corners, a small one narrow elements around it
+  const auto disc = [&](double reach) {
+    const double middle = std::clamp(core * h / reach, low_fraction, high_fraction);
+    return quad_disc(core, std::max(1, int(std::lround((1 - middle) * reach / h))), middle);
+  };
+  const Quads lower = disc(low), upper = disc(line.length() - high);
   Skin skin;
   skin.add_disc(lower, 0, low, false);
   int32_t ring = int32_t(skin.p.size()) - n;  // the rim comes last
