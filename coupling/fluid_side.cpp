@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/app/timers.h"
 #include "coupling/handshake.h"
 
 namespace bw::coupling {
@@ -13,6 +14,7 @@ FluidSide::FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hell
 }
 
 bool FluidSide::receive() {
+  const Timed timed("wait for the surface", Timed::waiting);
   int32_t goes_on = 1;
   if (channel_.leader()) {
     if (channel_.wait({tag_step, tag_bye}) == tag_bye) {
@@ -91,6 +93,7 @@ void FluidSide::receive_surface() {
 }
 
 void FluidSide::send(const Loads& loads) {
+  const Timed timed("send loads");
   known_.t = loads.t1;
   if (!channel_.leader()) return;
   const LoadBlock load = pack(loads, step_);

@@ -5,10 +5,12 @@
 #include <cstring>
 
 #include "common/app/log.h"
+#include "common/app/timers.h"
 
 namespace bw::coupling {
 
 double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello) {
+  const Timed timed("handshake", Timed::waiting);
   double t_end = hello.t_end;
   if (channel.leader()) {
     const HelloBlock mine = pack(hello, cs, name_of(channel.role()), channel.mine().size());

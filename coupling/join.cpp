@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/app/log.h"
+#include "common/app/timers.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
 
@@ -54,6 +55,7 @@ std::vector<JoinBlock> ask_all(const Comm& world, const JoinBlock& me, double li
 }  // namespace
 
 Joined join(const Session& session, Role role, const CouplingCase& cs) {
+  const Timed timed("join", Timed::waiting);
   const Comm world = session.world();
   if (world.size() == 1) return {world, nullptr};
   set_notice(" before the programs had joined");

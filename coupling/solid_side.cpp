@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "common/app/timers.h"
 #include "coupling/handshake.h"
 #include "coupling/ledger_table.h"
 
@@ -19,6 +20,7 @@ SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hell
 }
 
 void SolidSide::send(Window window, const WetSurface& surface) {
+  const Timed timed("send surface");
   window.index = next_window_++;
   window.mean_pressure = case_.kind() == Scheme::fluid_first;
   if (!(window.t1_max > window.t0) || window.t1_max > t_end_) window.t1_max = t_end_;
@@ -68,6 +70,7 @@ void SolidSide::send(Window window, const WetSurface& surface) {
 }
 
 const Loads& SolidSide::receive() {
+  const Timed timed("wait for loads", Timed::waiting);
   LoadBlock load{};
   if (channel_.leader()) {
     const double waited_before = channel_.seconds_waited();
@@ -104,6 +107,7 @@ const Loads& SolidSide::receive() {
 }
 
 void SolidSide::end_window(std::span<const Vec3> x_end) {
+  const Timed timed("ledger");
   t_last_ = loads_.t1;
   channel_.set_place(window_.index, t_last_);
   if (!channel_.leader()) return;
