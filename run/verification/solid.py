@@ -57,6 +57,33 @@ def taylor(across, along, extra=""):
             + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n' + extra)
 
 
+def j2(density, young, poisson, yield_stress, hardening):
+    return (f'material = {{kind = "j2", density = {density!r}, young_modulus = {young!r}, poisson_ratio = {poisson!r}, '
+            f'flow = {{kind = "linear", yield_stress = {yield_stress!r}, hardening = {hardening!r}}}}}\n')
+
+
+PAPER_STEEL = dict(density=7760.0, young=641.5e9, poisson=0.3, yield_stress=1.283e9, hardening=8.657e9)
+TAYLOR_COPPER = dict(density=8930.0, young=117e9, poisson=0.35, yield_stress=400e6, hardening=100e6)
+
+
+@case("S9", quick=True)
+def s9():
+    """Thin ring in free flight: hoop strain and time at its first stop, against the ordinary differential equation"""
+    for name, steel, speed in (("paper steel", PAPER_STEEL, 200.0), ("paper steel", PAPER_STEEL, 500.0), ("copper", TAYLOR_COPPER, 200.0)):
+        strain, stop = reference.ring_stop(0.05, speed, steel["young"], steel["density"], steel["yield_stress"], steel["hardening"])
+        text = (f"[time]\nend = {1.05 * stop!r}\n" + output("0 s", "0 s")
+                + '[[solid.body]]\nname = "ring"\nmesh = {kind = "tube", inner_radius = "49.75 mm", outer_radius = "50.25 mm", length = "0.5 mm", '
+                + 'around = 64, through = 1, along = 1}\n' + f"motion = {{radial = {speed!r}}}\n" + j2(**steel)
+                + '[[solid.probe]]\nname = "ring"\nkind = "ring"\n')
+        result = run(f"S9_{name.replace(' ', '_')}_{speed:g}", text, only="solid")
+        table = fields.history(result.directory / "solid_history.csv")
+        radius, velocity, t = table["ring radius"], table["ring v_radial"], table["t"]
+        k = int(np.flatnonzero(velocity <= 0)[0])
+        part = velocity[k - 1] / (velocity[k - 1] - velocity[k])
+        yield close(f"{name}, {speed:g} m/s: ln(r/r0) at the first stop", np.log(radius[:k + 1].max() / radius[0]), strain, 0.01, result.seconds)
+        yield close(f"{name}, {speed:g} m/s: time of the first stop", t[k - 1] + part * (t[k] - t[k - 1]), stop, 0.01)
+
+
 @case("S7")
 def s7():
     """Taylor bar, copper, 227 m/s, 8 elements across the radius: foot radius, length, largest plastic strain, energy"""
@@ -67,3 +94,23 @@ def s7():
     yield between("foot radius [mm]", foot, 7.05, 7.25, result.seconds)
     yield between("length [mm]", (x[:, 2].max() - x[:, 2].min()) * 1e3, 21.38, 21.50)
     yield between("largest plastic strain", solid.cell["eqps"].max(), 2.9, 3.4)
+
+
+@case("C12")
+def c12():
+    """The weapon's body under the travelling front of eq (18): mid-body wall against the ring's differential equation"""
+    inner, wall = 0.1365 - 0.012, 0.012
+    t_ring, v_ring, r_ring = reference.loaded_ring(inner, wall, 7760.0, 1.283e9, 8.657e9, 1e10, 0.1, 7200.0, 0.3)
+    text = ("[time]\nend = \"160 us\"\n" + output("0 s", "0.2 us")
+            + '[[solid.body]]\nname = "case"\nmesh = {kind = "weapon", size = "demo", wall = "12 mm"}\n' + j2(**PAPER_STEEL)
+            + '[solid.filter]\nkind = "self_adjoint"\n'
+            + '[[solid.load]]\nkind = "pressure_front"\nfaces = ["inner"]\npeak = "1e11 dyn/cm^2"\ndecay = "0.1 1/cm"\nspeed = "7.2e5 cm/s"\n'
+            + 'axis = [0.0, 0.0, -1.0]\nstart = [0.0, 0.0, 1.45]\n'
+            + '[[solid.probe]]\nname = "mid"\nkind = "ring"\nlower = 0.725\nupper = 0.775\n')
+    result = run("C12", text, only="solid")
+    table = fields.history(result.directory / "solid_history.csv")
+    t, radius, velocity = table["t"], table["mid radius"], table["mid v_radial"]
+    passed = (1.45 - 0.75) / 7200
+    alpha = 2 / np.sqrt(3) * np.log(radius / radius[0])
+    yield close("time from the front's passage to a strain of 0.3", float(np.interp(0.3, alpha, t)) - passed, t_ring, 0.08, result.seconds)
+    yield close("radial velocity then", float(np.interp(0.3, alpha, velocity)), v_ring, 0.08)
