@@ -124,7 +124,7 @@ Mesh Gmsh::make() const {
   const GmshFile raw = read_gmsh(file, place);
   const Points points(raw);
   if (points.x.empty())
-    throw InputError(file + ": no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
+    throw InputError(place + ": mesh file '" + file + "': no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
   std::vector<std::array<int32_t, 4>> tets;
   for (const GmshElement& e : raw.elements) {
     if (e.type != tetrahedron) continue;

@@ -49,8 +49,8 @@ BURN = """\
 material = "TNT"
 points = [["80 mm", "5 mm", "5 mm"]]
 """
-# a hexahedron whose top face is twisted by 180 degrees: no order of its nodes is right
-TWISTED_MSH = """\
+# a hexahedron with a corner pushed through the opposite one: no order of its nodes is right
+PUSHED_MSH = """\
 $MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -60,17 +60,17 @@ $Nodes
 2 1 0 0
 3 1 1 0
 4 0 1 0
-5 1 1 1
-6 0 1 1
-7 0 0 1
-8 1 0 1
+5 0 0 1
+6 1 0 1
+7 -0.5 -0.5 -0.5
+8 0 1 1
 $EndNodes
 $Elements
 1
 1 5 2 1 1 1 2 3 4 5 6 7 8
 $EndElements
 """
-EMPTY_MSH = TWISTED_MSH.split("$Elements")[0] + "$Elements\n0\n$EndElements\n"
+EMPTY_MSH = PUSHED_MSH.split("$Elements")[0] + "$Elements\n0\n$EndElements\n"
 BOX = 'mesh = {kind = "box", lower = [0, 0, 0], upper = ["10 mm", "10 mm", "10 mm"], cells = [2, 2, 2]}'
 
 
@@ -88,8 +88,8 @@ CASES = {
     "missing mesh file": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "nowhere.msh"}'), r"nowhere\.msh", {}),
     "zero elements": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "empty.msh"}'), r"element|hexahedr", {"empty.msh": EMPTY_MSH}),
     "zero elements, box": ("csd", swap(SOLID, "cells = [2, 2, 2]", "cells = [2, 0, 2]"), r"cells", {}),
-    "inverted element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "twisted.msh"}'), r"element 1|invert|negative|volume",
-                         {"twisted.msh": TWISTED_MSH}),
+    "inverted element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "gmsh", file = "pushed.msh"}'), r"element 1|invert|negative|volume",
+                         {"pushed.msh": PUSHED_MSH}),
     "nu = 0.5": ("csd", swap(SOLID, "poisson_ratio = 0.3", "poisson_ratio = 0.5"), r"poisson_ratio", {}),
     "negative density": ("csd", swap(SOLID, '"7.8 g/cm^3"', '"-7.8 g/cm^3"'), r"density", {}),
     "negative density, fluid": ("cfd", swap(FLUID, "density = 1.225", "density = -1.225"), r"density", {}),
