@@ -145,7 +145,7 @@ MeshQuality check_mesh(Mesh& mesh, const std::string& where, bool may_have_piece
   quality.median_scaled_jacobian = scaled[scaled.size() / 2];
   if (quality.min_scaled_jacobian <= 0)
     quality.notes.push_back(where + ": an element has an inverted corner (its integration points are valid)");
-  if (NodeId hinge; !has_no_hinge(mesh, Topology(mesh), hinge))
+  if (NodeId hinge; !has_no_hinge(mesh, Topology(mesh, where), hinge))
     throw InputError(fmt::format("{}: node {} at {} joins elements that share no face there (a hinge)", where,
                                  mesh.node_gid[hinge], place(mesh.X[hinge])));
   quality.pieces = count_pieces(mesh);

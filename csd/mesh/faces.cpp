@@ -9,7 +9,7 @@
 
 namespace bw::csd {
 
-Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh) {
+Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh, const std::string& where) {
   // faces in buckets by their lowest node: a bucket holds a handful
   const int32_t faces = mesh.elem_count() * 6;
   std::vector<int32_t> start(size_t(mesh.node_count()) + 1, 0), bucket(static_cast<size_t>(faces));
@@ -38,7 +38,7 @@ Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh) {
         const Face fa = face_of(a), fb = face_of(b);
         int32_t &pa = partner[fa.elem][size_t(fa.side)], &pb = partner[fb.elem][size_t(fb.side)];
         if (pa >= 0 || pb >= 0)
-          throw InputError("mesh: three elements share one face, two of them " +
+          throw InputError(where + ": three elements share one face, two of them " +
                            std::to_string(mesh.elem_gid[fa.elem]) + " and " + std::to_string(mesh.elem_gid[fb.elem]) +
                            " (elements overlap)");
         pa = b;
@@ -49,8 +49,8 @@ Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh) {
   return partner;
 }
 
-std::vector<Face> boundary_faces(const Mesh& mesh) {
-  const auto partner = pair_faces(mesh);
+std::vector<Face> boundary_faces(const Mesh& mesh, const std::string& where) {
+  const auto partner = pair_faces(mesh, where);
   std::vector<Face> faces;
   for (int32_t e = 0; e < mesh.elem_count(); ++e)
     for (int s = 0; s < 6; ++s)

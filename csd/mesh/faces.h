@@ -14,11 +14,11 @@ inline int32_t face_code(Face f) { return f.elem.valid() ? f.elem * 6 + f.side :
 inline Face face_of(int32_t code) { return code < 0 ? Face{} : Face{ElemId(code / 6), code % 6}; }
 
 /// For each element and side the code of the face with the same four nodes, -1 on the boundary.
-/// InputError if three or more faces coincide.
-Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh);
+/// InputError "where: ..." if three or more faces coincide.
+Field<std::array<int32_t, 6>, ElemId> pair_faces(const Mesh& mesh, const std::string& where = "mesh");
 
 /// Faces without a partner, by element and side.
-std::vector<Face> boundary_faces(const Mesh& mesh);
+std::vector<Face> boundary_faces(const Mesh& mesh, const std::string& where = "mesh");
 
 /// Node set and face set `name`: the nodes for which `holds` is true, and the boundary faces that have no other nodes.
 void add_set(Mesh& mesh, const std::vector<Face>& boundary, const std::string& name,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -53,6 +54,29 @@ class Points {
   std::unordered_map<int64_t, int32_t> index_;
   std::vector<int32_t> number_;
 };
+
+/// Format 2.2 writes an element once for each of its physical groups: leaves one of them, with all the groups.
+void join_repeated(GmshFile& file) {
+  std::map<std::array<int64_t, 8>, size_t> first;
+  std::vector<GmshElement> kept;
+  for (GmshElement& e : file.elements) {
+    if (gmsh_dimension(e.type) == 3) {
+      auto nodes = e.nodes;
+      std::fill(nodes.begin() + gmsh_node_count(e.type), nodes.end(), 0);
+      const auto [it, is_new] = first.try_emplace(nodes, kept.size());
+      GmshElement& known = is_new ? e : kept[it->second];
+      if (!is_new) {
+        if (e.physical.empty() || e.physical == known.physical)
+          throw InputError(
+              fmt::format("{}: element {} has the same nodes as element {}", file.at(e.offset), e.tag, known.tag));
+        known.physical.insert(known.physical.end(), e.physical.begin(), e.physical.end());
+        continue;
+      }
+    }
+    kept.push_back(std::move(e));
+  }
+  file.elements = std::move(kept);
+}
 
 using Quad = std::array<int32_t, 4>;
 Quad sorted(Quad q) {
@@ -104,13 +128,13 @@ Named named_parts(const GmshFile& file, const Points& points, const TetSplit& sp
   return named;
 }
 
-void add_face_sets(Mesh& mesh, const Named& named) {
+void add_face_sets(Mesh& mesh, const Named& named, const std::string& path) {
   for (const auto& [name, nodes] : named.nodes)
     for (const int32_t n : nodes) mesh.node_sets[name].push_back(NodeId(n));
   if (named.quads.empty()) return;
   Mesh mended = mesh;  // the sides that the elements will have once check_mesh has put their node order right
-  mend_node_order(mended, "mesh");
-  for (const Face f : boundary_faces(mended)) {
+  mend_node_order(mended, path);
+  for (const Face f : boundary_faces(mended, path)) {
     const auto q = mended.nodes_of(f);
     const auto it = named.quads.find(sorted({q[0], q[1], q[2], q[3]}));
     if (it == named.quads.end()) continue;
@@ -121,7 +145,8 @@ void add_face_sets(Mesh& mesh, const Named& named) {
 }  // namespace
 
 Mesh Gmsh::make() const {
-  const GmshFile raw = read_gmsh(file, place);
+  GmshFile raw = read_gmsh(file, place);
+  join_repeated(raw);
   const Points points(raw);
   if (points.x.empty())
     throw InputError(place + ": mesh file '" + file + "': no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
@@ -156,7 +181,7 @@ Mesh Gmsh::make() const {
     if (e.type == hexahedron && valid_node_order(corners(mesh.hex[ElemId(mesh.elem_count() - 1)], mesh.X)) < 0)
       throw InputError(fmt::format("{}: hexahedron {} is inverted or has no volume", raw.at(e.offset), e.tag));
   }
-  add_face_sets(mesh, named_parts(raw, points, split));
+  add_face_sets(mesh, named_parts(raw, points, split), file);
   return mesh;
 }
 

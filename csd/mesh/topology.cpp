@@ -10,8 +10,8 @@
 
 namespace bw::csd {
 
-Topology::Topology(const Mesh& mesh)
-    : partner_(pair_faces(mesh)), bonds_(size_t(mesh.elem_count()), 0), star_(size_t(mesh.node_count())) {
+Topology::Topology(const Mesh& mesh, const std::string& where)
+    : partner_(pair_faces(mesh, where)), bonds_(size_t(mesh.elem_count()), 0), star_(size_t(mesh.node_count())) {
   for (const auto& h : mesh.hex)
     for (const NodeId n : h) ++star_[n].count;
   int32_t first = 0;

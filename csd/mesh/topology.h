@@ -20,7 +20,7 @@ struct NodeSplit {
 
 class Topology {
  public:
-  explicit Topology(const Mesh& mesh);
+  explicit Topology(const Mesh& mesh, const std::string& where = "mesh");
 
   /// Face on the other side while all four nodes are shared; invalid elem on the boundary and across cracks.
   Face neighbour(Face f) const { return is_bonded(f) ? partner(f) : Face{}; }

@@ -206,6 +206,17 @@ INSTANTIATE_TEST_SUITE_P(Formats, GmshFiles,
                          ::testing::Values(std::pair{22, ascii}, std::pair{22, binary}, std::pair{22, swapped},
                                            std::pair{41, ascii}, std::pair{41, binary}, std::pair{41, swapped}));
 
+TEST(GmshGroups, AnElementWrittenOnceForEachGroupIsOneElement) {
+  Model model = two_hexes();
+  Element again = model.elements[4];
+  again.group = 9;
+  model.elements.push_back(again);
+  const Mesh m = read(write22(model, ascii));
+  EXPECT_EQ(m.elem_count(), 2);
+  EXPECT_EQ(m.elem_sets.at("steel case").size(), 2u);
+  EXPECT_EQ(m.elem_sets.at("9"), std::vector<ElemId>{ElemId(0)});
+}
+
 TEST(GmshErrors, NameTheirPlace) {
   const std::string good = write22(two_hexes(), ascii);
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -236,6 +247,9 @@ TEST(GmshErrors, NameTheirPlace) {
   expect(with("6 5 2 8 8", "6 6 2 8 8"), "a prism", ".msh:35");
   expect(with("6 5 2 8 8", "6 17 2 8 8"), "of Gmsh type 17", ".msh:35");
   expect(with("\n2 0.000000 0.000000", "\n1 0.000000 0.000000"), "node 1 is given twice");
+  Model doubled = two_hexes();
+  doubled.elements.push_back(doubled.elements[4]);
+  expect(write22(doubled, ascii), "element 7 has the same nodes as element 5", ".msh:36");
   Model surface = two_hexes();
   surface.elements.resize(4);
   expect(write22(surface, ascii), "no volume elements");
