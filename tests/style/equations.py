@@ -32,7 +32,7 @@ def tags(line):
 
 def main():
     places = {}
-    for folder in ("common", "coupling", "csd", "cfd"):
+    for folder in ("coupling", "csd", "cfd"):
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
                 continue
