@@ -140,10 +140,11 @@ void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, Sta
   s.V0[slot] = s.volume[slot] = volume_of(modes);
   if (!(s.V0[slot] > 0)) refuse(mesh, e, "volume", s.V0[slot]);
   for (int i = 0; i < 8; ++i) {
-    const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), Sym3{});
-    if (!(p.det_g > 0)) refuse(mesh, e, "at an integration point a volume (8 det)", 8 * p.det_g);
+    const Vec3 &g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const double det_g = triple(g1, g2, g3);
+    if (!(det_g > 0)) refuse(mesh, e, "at an integration point a volume (8 det)", 8 * det_g);
     double* at_point = history + i * M::components * lanes;
-    store_sym(at_point, p.metric());
+    store_sym(at_point, metric(cross(g2, g3), cross(g3, g1), cross(g1, g2), 1 / (det_g * det_g)));
     for (int c = 6; c < M::components; ++c) at_point[c * lanes] = 0;
   }
 }

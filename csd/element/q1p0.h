@@ -57,6 +57,8 @@ template <class T>
 /// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference volume,
 /// mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
 /// history: [8][M::components][lanes], at this element's lane.
+/// In stages over the eight points, so that the long dependent chains of one point (cube root, return map) overlap with those of
+/// the next.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
                                const MeanStress& mean_stress) {
@@ -64,19 +66,44 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
   const Columns<T> g = columns_of(modes);
   const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
   const T least_squared = T(collapse_ratio * collapse_ratio) * J_bar * J_bar;
-  T collapsed(0);
+  constexpr int stride = M::components * lanes;
+  T det_g[8], collapsed(0);
+  Trial<T> trial[8];
+  Response<T> response[8];
+#pragma GCC unroll 1
+  for (int i = 0; i < 8; ++i) {
+    det_g[i] = triple(g.at(0, i), g.at(1, i), g.at(2, i));
+    trial[i].J_squared = squared_ratio(load_sym<T>(history + i * stride), det_g[i]);
+    trial[i].iso = rcbrt(trial[i].J_squared);
+    collapsed = select((trial[i].J_squared < least_squared) | (det_g[i] <= T(0)), T(1), collapsed);
+  }
+#pragma GCC unroll 1
+  for (int i = 0; i < 8; ++i) {
+    const Sym<T> A = load_sym<T>(history + i * stride);
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const Sym<T> b = left_cauchy_green<T>(A.xx * g1 + A.xy * g2 + A.xz * g3, A.xy * g1 + A.yy * g2 + A.yz * g3,
+                                          A.xz * g1 + A.yz * g2 + A.zz * g3, g1, g2, g3);
+    const Sym<T> dev = deviator(b);
+    trial[i].third_trace = trace(b) * T(1.0 / 3.0);
+    trial[i].dev2 = contract(dev, dev);
+    trial[i].dev_det = det(dev);
+  }
+#pragma GCC unroll 1
+  for (int i = 0; i < 8; ++i) response[i] = material.respond(trial[i], history + i * stride);
   Columns<T> q{};
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
-    double* at_point = history + i * M::components * lanes;
-    const Point<T> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<T>(at_point));
+    double* at_point = history + i * stride;
+    const Sym<T> A = load_sym<T>(at_point);
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const Vec<T> c1 = cross(g2, g3), c2 = cross(g3, g1), c3 = cross(g1, g2);
     // dev sigma = k dev b^e / J; times c_k: k/J (det_g h_k - t c_k), as b^e c_k = det_g h_k
-    const T k = material.deviator(p, at_point) * p.iso * sqrt(p.iso);
-    const T on_h = k * p.det_g, on_c = sigma_m - k * p.third_trace;
-    q.at(0, i) += on_h * p.h[0] + on_c * p.c[0];
-    q.at(1, i) += on_h * p.h[1] + on_c * p.c[1];
-    q.at(2, i) += on_h * p.h[2] + on_c * p.c[2];
-    collapsed = select((p.J_squared < least_squared) | (p.det_g <= T(0)), T(1), collapsed);
+    const T k = response[i].k * trial[i].iso * sqrt(trial[i].iso);
+    const T on_h = k * det_g[i], on_c = sigma_m - k * trial[i].third_trace;
+    q.at(0, i) += on_h * (A.xx * g1 + A.xy * g2 + A.xz * g3) + on_c * c1;
+    q.at(1, i) += on_h * (A.xy * g1 + A.yy * g2 + A.yz * g3) + on_c * c2;
+    q.at(2, i) += on_h * (A.xz * g1 + A.yz * g2 + A.zz * g3) + on_c * c3;
+    if (response[i].flows) store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (det_g[i] * det_g[i])));
   }
   if (any(collapsed > T(0))) [[unlikely]] {
     T correction(0);

@@ -32,13 +32,13 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
   r.elastic = V0 * material.volumetric.energy(J_bar);
   bool collapsed = false;
   for (int i = 0; i < 8; ++i) {
-    double at_point[M::components * lanes];  // the deviator commits a history: into a copy
+    double at_point[M::components * lanes];  // a response commits history: into a copy
     std::copy_n(history + i * M::components * lanes, (M::components - 1) * lanes + 1, at_point);
     const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<double>(at_point));
-    const double k = material.deviator(p, at_point), J = 1 / (p.iso * std::sqrt(p.iso)), point_V0 = p.det_g / J;
+    const double k = material.respond(p.trial, at_point).k, iso = p.trial.iso, J = std::sqrt(p.trial.J_squared), point_V0 = p.det_g / J;
     r.sigma = r.sigma + (p.det_g * k / J) * p.dev_b;
-    const double e = k / material.mu, q = e * e * contract(p.dev_b, p.dev_b), det_s = e * e * e * det(p.dev_b);
-    double third_trace = p.iso * p.third_trace;
+    const double e = k / material.mu, q = e * e * p.trial.dev2, det_s = e * e * e * p.trial.dev_det;
+    double third_trace = iso * p.trial.third_trace;
     if constexpr (M::plastic) {
       third_trace = isochoric_third_trace(q, det_s, third_trace);
       const double eqps = at_point[6 * lanes];
@@ -47,7 +47,7 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
       r.plastic += point_V0 * material.plastic_work(eqps);
     }
     r.elastic += point_V0 * 1.5 * material.mu * (third_trace - 1);
-    collapsed |= p.J_squared < collapse_ratio * collapse_ratio * J_bar * J_bar || p.det_g <= 0;
+    collapsed |= p.trial.J_squared < collapse_ratio * collapse_ratio * J_bar * J_bar || p.det_g <= 0;
   }
   const double mean = sigma_m ? *sigma_m : material.volumetric.mean_stress(J_bar);
   r.sigma = (1 / volume) * r.sigma + Sym3{mean, mean, mean, 0, 0, 0};

@@ -118,9 +118,9 @@ T omega2_bound(const M& material, const Corners<T>& x, T V0, const T (&mass)[8],
   for (int i = 0; i < 8; ++i) {
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
     const Point<T> p(g1, g2, g3, load_sym<T>(history + i * M::components * lanes));
-    const T per_J = T(material.mu) * p.iso * p.iso * sqrt(p.iso);  // mu J^(-2/3) / J
-    const T m = T(2) * per_J * p.third_trace;
-    const T a = abs(sigma_m) + T(2) * per_J * sqrt(contract(p.dev_b, p.dev_b));
+    const T per_J = T(material.mu) * p.trial.iso * p.trial.iso * sqrt(p.trial.iso);  // mu J^(-2/3) / J
+    const T m = T(2) * per_J * p.trial.third_trace;
+    const T a = abs(sigma_m) + T(2) * per_J * sqrt(p.trial.dev2);
     const T weight = p.det_g * point_stiffness(g1, g2, g3, m + a, bulk - m * T(1.0 / 3.0), 5);
     for (int k = 0; k < 36; ++k) A.a[k] += T(gradient_products[size_t(i)].a[k]) * weight;
   }

@@ -12,16 +12,15 @@ namespace bw::csd {
 ///   M::name            the word in the case file
 ///   M::components      numbers of history per point: the six of A (point.h) first, then the model's own
 ///   M::plastic         whether component 6 is eqps
-///   deviator(point, history)  k such that dev tau = k dev b^e at the end of the step [Pa]; commits the new history
+///   respond(trial, history)  end of the step; commits the model's own history (from component 6 on) but not A
 ///   plastic_work(eqps) J/m^3 of reference volume spent since the start
 template <class M>
-concept Material = std::derived_from<M, Elastic> &&
-                   requires(const M m, const Point<double>& p, double* history, double eqps) {
-                     { M::name } -> std::convertible_to<const char*>;
-                     { M::components } -> std::convertible_to<int>;
-                     { M::plastic } -> std::convertible_to<bool>;
-                     { m.deviator(p, history) } -> std::same_as<double>;
-                     { m.plastic_work(eqps) } -> std::same_as<double>;
-                   };
+concept Material = std::derived_from<M, Elastic> && requires(const M m, const Trial<double>& t, double* history, double eqps) {
+  { M::name } -> std::convertible_to<const char*>;
+  { M::components } -> std::convertible_to<int>;
+  { M::plastic } -> std::convertible_to<bool>;
+  { m.respond(t, history) } -> std::same_as<Response<double>>;
+  { m.plastic_work(eqps) } -> std::same_as<double>;
+};
 
 }  // namespace bw::csd

@@ -13,8 +13,8 @@ struct NeoHooke : Elastic {
   using Elastic::Elastic;
 
   template <class T>
-  T deviator(const Point<T>& p, double*) const {
-    return T(mu) * p.iso;  // eq (6)
+  Response<T> respond(const Trial<T>& t, double*) const {
+    return {T(mu) * t.iso, T(1), T(0)};  // eq (6)
   }
   template <class T>
   T plastic_work(T) const {
