@@ -17,37 +17,37 @@ COPPER = ('material = {kind = "j2", density = "8930 kg/m^3", young_modulus = "11
 @case("S1", quick=True)
 def s1():
     """Patch test, rigid rotation and objectivity of the element"""
-    yield from unit_rows("csd", "*S1*:*Patch*:*Rotation*:*Objectiv*")
+    yield from unit_rows("csd", "S1.*")
 
 
 @case("S2", quick=True)
 def s2():
     """Closed elastic cycle: nothing is left"""
-    yield from unit_rows("csd", "*S2*:*Cycle*")
+    yield from unit_rows("csd", "S2.*")
 
 
 @case("A2", quick=True)
 def a2():
     """Test vectors of the return map: simple shear, uniaxial strain, isochoric plastic flow"""
-    yield from unit_rows("csd", "*A2*:*Shear*:*Uniaxial*:*Isochoric*:*isochoric*")
+    yield from unit_rows("csd", "A2.*", {"det_Cp_error": 1e-10})
 
 
 @case("A3", quick=True)
 def a3():
     """Internal force against the finite difference of the energy; forces and moments sum to nothing"""
-    yield from unit_rows("csd", "*A3*:*FiniteDifference*:*Gradient*")
+    yield from unit_rows("csd", "A3.*", {"relative_error": 1e-7})
 
 
 @case("S5", quick=True)
 def s5():
     """Hydrostatic compression of a perturbed block"""
-    yield from unit_rows("csd", "*S5*:*Hydrostatic*")
+    yield from unit_rows("csd", "S5.*")
 
 
 @case("S13", quick=True)
 def s13():
     """Crack topology, eq (16): counts of nodes, conserved mass and momentum, order independence"""
-    yield from unit_rows("csd", "*S13*:*Crack*:*Split*")
+    yield from unit_rows("csd", "FractureTopology.*")
 
 
 def taylor(across, along, extra=""):
