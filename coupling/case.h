@@ -14,6 +14,7 @@ struct CouplingCase {
   std::string scheme = "fluid_first";
   double reference_pressure = 101325;  ///< Pa; absolute pressure that the solid feels as none
   double window_max = 0;               ///< s; 0: the fluid's time step alone decides
+  double added_mass = 0.2;             ///< longest window in (areal mass) / (fluid's impedance) of a face
   double silence_limit = 600;          ///< s
   double join_limit = 120;             ///< s
 
@@ -27,11 +28,16 @@ struct CouplingCase {
                "absolute pressure subtracted from the fluid's before it loads the solid");
     k.optional("window_max", window_max, dim::time,
                "longest time between two exchanges; 0 = the fluid's time step alone decides");
+    k.optional("added_mass", added_mass, dim::none,
+               "longest window as a multiple of (mass per area)/(rho c of the fluid) of the lightest wet face: frozen "
+               "loads are unstable "
+               "beyond 0.5, half of it for chips wet on both sides; 0 = no limit");
     k.optional("silence_limit", silence_limit, dim::time,
                "a program that hears nothing from the other for so long ends both");
     k.optional("join_limit", join_limit, dim::time, "longest wait for the other program at the start");
     k.expect(reference_pressure >= 0, "reference_pressure", "a pressure >= 0");
     k.expect(window_max >= 0, "window_max", "a time >= 0");
+    k.expect(added_mass >= 0, "added_mass", "a number >= 0");
     k.expect(silence_limit > 0, "silence_limit", "a time > 0");
     k.expect(join_limit > 0, "join_limit", "a time > 0");
   }

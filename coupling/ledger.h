@@ -36,9 +36,10 @@ struct LedgerRow {
   Vec3 moment_defect;        ///< N m s, likewise
   double impulse_scale = 0;  ///< N s, sum |P A| dt
   double volume_gap = 0;     ///< m^3, solid's surface beyond the fluid's wall at t1 (fluid_first), before it is repaid
-  int64_t born = 0, dead = 0;                     ///< faces that came and went with this window's surface
-  double area = 0;                                ///< m^2
-  double work_fluid = 0;                          ///< J, the fluid's work beyond the reference pressure
+  int64_t born = 0, dead = 0;  ///< faces that came and went with this window's surface
+  double added_mass = 0;       ///< 1, largest (impedance x dt / areal mass) of a face, set by SolidSide
+  double area = 0;             ///< m^2
+  double work_fluid = 0;       ///< J, the fluid's work beyond the reference pressure
   double work_fluid_sum = 0, work_solid_sum = 0;  ///< J since the start, beyond the reference pressure
 };
 
@@ -53,6 +54,7 @@ class Ledger {
   /// The window ends; nodes of the opened surface are at x_end [n_nodes] (empty: unknown, then no gap). The text is a
   /// failure (impulse not conserved), to be given to Channel::fail(exit_ledger).
   std::optional<std::string> close(std::span<const Vec3> x_end = {});
+  void set_added_mass(double share) { row_.added_mass = share; }
   const LedgerRow& row() const { return row_; }
 
  private:

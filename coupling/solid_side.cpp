@@ -13,18 +13,20 @@
 namespace bw::coupling {
 
 SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path)
-    : channel_(channel), case_(cs), predictor_(cs.kind()), ledger_(cs.reference_pressure) {
+    : channel_(channel), case_(cs), predictor_(cs.kind()), added_mass_(cs.added_mass), ledger_(cs.reference_pressure) {
   t_end_ = shake_hands(channel, cs, hello);
   t_last_ = hello.t0;
   if (channel.leader() && !history_path.empty()) history_.emplace(open_ledger_table(history_path));
 }
 
-void SolidSide::send(Window window, const WetSurface& surface) {
+void SolidSide::send(Window window, const WetSurface& surface, std::span<const double> areal_mass) {
   const Timed timed("send surface");
   window.index = next_window_++;
   window.mean_pressure = case_.kind() == Scheme::fluid_first;
   if (!(window.t1_max > window.t0) || window.t1_max > t_end_) window.t1_max = t_end_;
   if (case_.window_max > 0) window.t1_max = std::min(window.t1_max, window.t0 + case_.window_max);
+  window.t1_max =
+      std::min(window.t1_max, window.t0 + added_mass_.longest_window(surface, areal_mass, window.dt_stable));
   window_ = window;
   channel_.set_place(window.index, window.t0);
   if (!channel_.leader()) return;
@@ -97,11 +99,11 @@ const Loads& SolidSide::receive() {
   loads_.totals = totals_of(load);
 
   const double dt = loads_.t1 - window_.t0;
-  if (loads_.t1 < window_.t1_max || dt_usual_ == 0)
-    dt_usual_ = dt;  // one that the limit cut short says nothing about the next
+  if (loads_.t1 < window_.t1_max) dt_usual_ = dt;  // one that the limit cut short says nothing about the next
   if (channel_.leader()) {
     predictor_.window_lasted(dt);
     ledger_.open(window_, sent_, loads_);
+    ledger_.set_added_mass(added_mass_.answer(loads_.impedance, dt));
   }
   return loads_;
 }

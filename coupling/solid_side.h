@@ -15,6 +15,7 @@
 #include <string>
 
 #include "common/io/csv.h"
+#include "coupling/added_mass.h"
 #include "coupling/channel.h"
 #include "coupling/ledger.h"
 #include "coupling/messages.h"
@@ -33,9 +34,10 @@ class SolidSide {
   /// The fluid wants to end after the window in hand.
   bool stop_asked() const { return loads_.stop; }
 
-  /// Window.index and mean_pressure are set here, t1_max is clipped to t_end() and window_max; surface.v is v^n, what
-  /// travels is the predicted velocity of the walls.
-  void send(Window window, const WetSurface& surface);
+  /// Window.index and mean_pressure are set here, t1_max is clipped to t_end(), window_max and what light faces stand
+  /// (areal_mass [n_faces] kg/m^2: of the part of the solid that moves with the face in one window, its element; empty:
+  /// unknown); surface.v is v^n, what travels is the predicted velocity of the walls.
+  void send(Window window, const WetSurface& surface, std::span<const double> areal_mass = {});
   /// Checked: t0 < t1 <= t1_max, one finite P per face. Valid until the next send.
   const Loads& receive();
   /// One substep's totals (leader's count; call on any).
@@ -59,6 +61,7 @@ class SolidSide {
   std::vector<int32_t> faces_;
   Loads loads_;
   WallPredictor predictor_;
+  AddedMass added_mass_;
   Ledger ledger_;
   double dt_usual_ = 0;  // last window that was not clipped
   double t_last_ = 0;    // s, where the books are closed

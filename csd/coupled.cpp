@@ -23,6 +23,12 @@ coupling::Hello hello_of(const Case& cs, const Model& m, const coupling::WetSurf
   return h;
 }
 
+double element_mass(const Model& m, ElemId e) {
+  const double density =
+      std::visit([](const auto& material) { return material.density; }, m.physics.elements.materials[size_t(m.mesh.body[e])]);
+  return density * m.state.V0[m.physics.elements.blocks.slot[e]];
+}
+
 }  // namespace
 
 Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m) : case_(cs) {
@@ -45,6 +51,7 @@ void Coupled::renew_surface(const Model& m) {
   wet_ = {};
   wet_.topo_version = m.topology.version();
   nodes_.clear();
+  mass_.clear();
   std::vector<int32_t> index(size_t(m.mesh.node_count()), -1);
   for (Face f : faces) {
     std::array<int32_t, 4> quad;
@@ -60,6 +67,7 @@ void Coupled::renew_surface(const Model& m) {
       quad[a] = index[size_t(n)];
     }
     wet_.quads.push_back(quad);
+    mass_.push_back(element_mass(m, f.elem));
     wet_.face_id.push_back(m.mesh.elem_gid[f.elem] * 6 + f.side);
     wet_.body.push_back(m.mesh.body[f.elem]);
     wet_.flags.push_back(m.topology.is_lip(f) ? coupling::face_lip : 0);
@@ -77,6 +85,8 @@ void Coupled::update_surface(const Model& m) {
   wet_.x = positions(m);
   wet_.v.clear();
   for (NodeId n : nodes_) wet_.v.push_back(m.state.v[n]);
+  areal_mass_.resize(mass_.size());
+  for (size_t f = 0; f < mass_.size(); ++f) areal_mass_[f] = mass_[f] / norm(coupling::area_vector(wet_.x, wet_.quads[f]));
 }
 
 double Coupled::exchange(Model& m, double dt_stable, double t_max, bool last) {
@@ -84,7 +94,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max, bool last) {
     renew_surface(m);
   else
     update_surface(m);
-  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable, .last = last}, wet_);
+  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable, .last = last}, wet_, areal_mass_);
   const coupling::Loads& loads = side_->receive();
   force_ = coupling::nodal_loads(wet_, loads, case_.coupling.reference_pressure);
   std::vector<std::pair<NodeId, Vec3>> forces;

@@ -33,6 +33,7 @@ class Coupled {
   std::vector<Face> faces_;              ///< original wet faces
   coupling::WetSurface wet_;
   std::vector<NodeId> nodes_;            ///< of wet_
+  std::vector<double> mass_, areal_mass_;  ///< per face of wet_: of its element, kg, kg/m^2
   std::vector<Vec3> force_, x_before_;   ///< per node of wet_: N in this window, m
   std::unique_ptr<coupling::SolidSide> side_;
 };

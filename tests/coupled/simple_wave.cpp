@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fluid program without cells: gas at rest on the lower side of every wet face with a normal towards -x, which feels
 // the exact simple wave
-//   p = p0 (1 - (gamma - 1)/2 u/c0)^(2 gamma/(gamma - 1)),   u: velocity of the wall along +x,
+//   p = p0 (c/c0)^(2 gamma/(gamma - 1)),   c = c0 - (gamma - 1)/2 u,   u: velocity of the wall along +x,
 // so that the real csd can be held against the exact piston (VALIDATION C1).
 //   mpirun -n 1 csd case.toml : -n 1 coupled_simple_wave <scheme> <window, s>
 #include <cmath>
@@ -42,9 +42,9 @@ int main(int argc, char** argv) {
       const std::vector<Vec3> v = path.velocity(dt);
       for (const auto& quad : wet.quads) {
         const Vec3 area = area_vector(wet.x, quad);
-        const double u = face_mean(v, quad).x;
-        loads.p.push_back(
-            area.x < 0 ? p0 * std::pow(1 - 0.5 * (gas_gamma - 1) * u / c0, 2 * gas_gamma / (gas_gamma - 1)) : 0.0);
+        const double c = 1 - 0.5 * (gas_gamma - 1) * face_mean(v, quad).x / c0;  // of c0
+        loads.p.push_back(area.x < 0 ? p0 * std::pow(c, 2 * gas_gamma / (gas_gamma - 1)) : 0.0);
+        loads.impedance.push_back(area.x < 0 ? rho0 * c0 * std::pow(c, (gas_gamma + 1) / (gas_gamma - 1)) : 0.0);
       }
       loads.totals = wall_totals(wet, loads, v, window);
       path.end(dt);
