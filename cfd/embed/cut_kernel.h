@@ -13,23 +13,11 @@
 #include <optional>
 #include <vector>
 
-#include "cfd/embed/patch_cuts.h"
+#include "cfd/embed/cut_scheme.h"
 #include "cfd/embed/wall_gas.h"
 #include "cfd/scheme/block_kernel.h"
 
 namespace bw::cfd {
-
-/// What the fluid of a block lost through cut links in one step.
-struct WallExchange {
-  double mass = 0;    ///< kg: the defect of link walls, 0 on average
-  Vec3 momentum;      ///< kg m/s: the impulse on the walls
-  double energy = 0;  ///< J
-  int64_t links = 0;
-  WallExchange& operator+=(const WallExchange& o) {
-    mass += o.mass, momentum += o.momentum, energy += o.energy, links += o.links;
-    return *this;
-  }
-};
 
 /// One per thread.
 template <class Eos>
@@ -71,12 +59,8 @@ class CutKernel {
     if (change.book_sides) book_sides(change);
   }
 
-  /// Pressure on a wall at x (mid-step) as seen from the open cell (k, j, i) of the block, and the density times sound
-  /// speed there. normal: unit, into the fluid. Call begin() or correct() before.
-  struct Load {
-    double p, rho_c;
-  };
-  Load load(const Index3& cell, const Vec3& x, const Vec3& normal, const Vec3& v_wall) {
+  /// CutScheme::load.
+  WallLoad load(const Index3& cell, const Vec3& x, const Vec3& normal, const Vec3& v_wall) {
     const Cell c = cell_at(cell[2], cell[1], cell[0]);
     const Predicted& own = predicted(c);
     const State mean = read(c);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include "coupling/loads.h"
@@ -36,11 +35,11 @@ double Lips::aperture(const coupling::WetSurface& s, int32_t face) const {
   const int32_t twin = size_t(face) < twin_.size() ? twin_[size_t(face)] : -1;
   const Vec3 area = coupling::area_vector(s.x, s.quads[size_t(face)]);
   const double size = norm(area);
-  if (twin < 0 || size == 0) return std::numeric_limits<double>::max();
+  if (twin < 0 || size == 0) return apart;
   const Vec3 gap = coupling::face_mean(s.x, s.quads[size_t(twin)]) - coupling::face_mean(s.x, s.quads[size_t(face)]);
   // lips that slid past each other are open too
   const double normal = dot(gap, area) / size, slide = norm(gap - (normal / size) * area);
-  return slide > 2 * std::sqrt(size) ? std::numeric_limits<double>::max() : normal;
+  return slide > 2 * std::sqrt(size) ? apart : normal;
 }
 
 }  // namespace bw::cfd

@@ -14,8 +14,9 @@ class Lips {
   /// Pairs the lips of a surface of new topology: the faces whose nodes were the same before all splits. Remembers the
   /// splits.
   void pair(const coupling::WetSurface& surface);
-  /// Distance of the twin along the face's normal [m], negative where they overlap; a large number for a face without
-  /// twin.
+  static constexpr double apart = 1e30;
+  /// Distance of the twin along the face's normal [m], negative where they overlap; `apart` without a twin, or where
+  /// the lips slid past each other.
   double aperture(const coupling::WetSurface& surface, int32_t face) const;
 
  private:

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels of blocks with walls behind one door: compiled once per pair of equations of state, one call per block.
+#pragma once
+#include <memory>
+
+#include "cfd/embed/patch_cuts.h"
+#include "cfd/mix/list.h"
+#include "cfd/scheme/block_kernel.h"
+
+namespace bw::cfd {
+
+/// What the fluid of a block lost through cut links in one step.
+struct WallExchange {
+  double mass = 0;    ///< kg: a defect of link walls, not a leak
+  Vec3 momentum;      ///< kg m/s: the impulse on the walls
+  double energy = 0;  ///< J: the work on the walls, and a defect
+  int64_t links = 0;
+  WallExchange& operator+=(const WallExchange& o) {
+    mass += o.mass, momentum += o.momentum, energy += o.energy, links += o.links;
+    return *this;
+  }
+};
+
+/// What a wall feels at one point.
+struct WallLoad {
+  double p = 0;      ///< Pa, >= 0
+  double rho_c = 0;  ///< kg/(m^2 s), of the gas there
+};
+
+/// One per thread; `shape` as in the patches.
+class CutScheme {
+ public:
+  virtual ~CutScheme() = default;
+  /// After BlockKernel::advance with the same patch, flow and dt: corrects `change` (and its book of sides) in and near
+  /// cut cells; 0 in blocked cells. exchange: added to.
+  virtual void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change,
+                       WallExchange& exchange) = 0;
+  /// For load() without correct(): dt = 0 gives loads at the patch's own time.
+  virtual void begin(const Patch& patch, const PatchCuts& cuts, double dt) = 0;
+  /// Pressure at x on a wall with unit normal n into the fluid and velocity v, dt/2 after the patch's time, seen from
+  /// the open cell (i, j, k) of the block: second order from its own side, then the half-Riemann wall.
+  virtual WallLoad load(const Index3& cell, const Vec3& x, const Vec3& n, const Vec3& v) = 0;
+  /// Conserved state of a fresh cell of the block from its valid neighbours (cfd/embed/refill.h). false: it has none.
+  virtual bool refill(const Patch& patch, const PatchCuts& cuts, const Index3& cell,
+                      double (&U)[Cons::count]) const = 0;
+};
+
+/// For patches of MixedFlow; also of one material, if all rows are filled. The mixture must outlive it.
+std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape);
+/// For patches of one gas. refill() fills that gas alone.
+std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape);
+
+}  // namespace bw::cfd

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/embed/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cfd/embed/scan.h"
+
+namespace bw::cfd {
+
+Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref)
+    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref) {
+  for (size_t d = 0; d < 3; ++d) blocks_[d] = lattice.n[d] / block[d];
+  map_.clear(lattice);
+}
+
+size_t Walls::block_number(const Index3& c) const {
+  return (size_t(c[2] / block_[2]) * size_t(blocks_[1]) + size_t(c[1] / block_[1])) * size_t(blocks_[0]) +
+         size_t(c[0] / block_[0]);
+}
+
+void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
+  changes_ = {};
+  const bool same = placed_ && surface.topo_version == surface_.topo_version && x.size() == surface_.x.size();
+  if (same && x == surface_.x) {
+    surface_.v = v;
+  } else {
+    std::vector<Vec3> before = x;  // where the nodes were, or their ancestors
+    if (same) {
+      before = std::move(surface_.x);
+    } else {
+      const coupling::NodePlaces now(surface);
+      for (size_t i = 0; i < x.size() && placed_; ++i)
+        if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0)
+          before[i] = surface_.x[size_t(old)];
+      surface_ = surface;
+      places_ = now;
+      lips_.pair(surface_);
+    }
+    surface_.x = x;
+    surface_.v = v;
+    rescan(placed_ ? &before : nullptr);
+  }
+  placed_ = true;
+  probes_ = find_probes(surface_, map_);
+  std::stable_sort(probes_.begin(), probes_.end(),
+                   [&](const Probe& a, const Probe& b) { return block_number(a.cell) < block_number(b.cell); });
+  first_probe_.assign(size_t(blocks_[0]) * size_t(blocks_[1]) * size_t(blocks_[2]) + 1, 0);
+  for (const Probe& p : probes_) ++first_probe_[block_number(p.cell) + 1];
+  for (size_t b = 1; b < first_probe_.size(); ++b) first_probe_[b] += first_probe_[b - 1];
+  values_.assign(2 * probes_.size(), 0.0);
+}
+
+void Walls::end(const std::vector<Vec3>& x_end) {
+  changes_ = {};
+  if (x_end == surface_.x) return;
+  const std::vector<Vec3> before = std::move(surface_.x);
+  surface_.x = x_end;
+  rescan(&before);
+}
+
+void Walls::rescan(const std::vector<Vec3>* x_before) {
+  CutMap now;
+  scan(surface_, lattice_, now);
+  if (x_before) changes_ = compare(map_, now, swept_cells(surface_, *x_before, lattice_));
+  map_ = std::move(now);
+}
+
+void Walls::accept(int layer) {
+  for (const FreshCell& f : changes_.fresh)
+    if (f.layer == layer) map_.drop_flag(f.cell, cell_fresh);
+}
+
+double Walls::largest_step() const {
+  double rate = 0;
+  for (const Vec3& v : surface_.v)
+    for (int d = 0; d < 3; ++d)
+      if (lattice_.active(d)) rate = std::max(rate, std::abs(v[d]) / lattice_.h[d]);
+  return rate > 0 ? 0.5 / rate : std::numeric_limits<double>::max();
+}
+
+bool Walls::near(const Index3& first) const {
+  const Range r = probes_of(first);
+  if (r.first != r.last) return true;
+  Index3 lower = first, upper;
+  for (size_t d = 0; d < 3; ++d) {
+    const int ghost = lattice_.active(int(d)) ? ghost_layers : 0;
+    upper[d] = first[d] + block_[d] + ghost;
+    lower[d] -= ghost;
+    // ghosts from the other end of a periodic domain: not worth a closer look
+    if (rules_[2 * d] == GhostRule::periodic && (lower[d] < 0 || upper[d] > lattice_.n[d]))
+      return map_.link_count() > 0;
+  }
+  return map_.touches(lower, upper);
+}
+
+Walls::Range Walls::probes_of(const Index3& first) const {
+  if (first_probe_.empty()) return {0, 0};
+  const size_t b = block_number(first);
+  return {first_probe_[b], first_probe_[b + 1]};
+}
+
+coupling::Loads Walls::loads() {
+  coupling::Loads r;
+  const size_t faces = surface_.quads.size();
+  std::vector<double> p[2];
+  for (auto& side : p) side.assign(faces, p_ref_);
+  r.impedance.assign(faces, 0.0);
+  std::vector<uint8_t> wet(faces, 0);
+  for (size_t i = 0; i < probes_.size(); ++i) {
+    const size_t f = size_t(probes_[i].face);
+    p[probes_[i].side < 0][f] = values_[2 * i];
+    r.impedance[f] += values_[2 * i + 1];
+    wet[f] = 1;
+  }
+  double h = std::numeric_limits<double>::max();
+  for (int d = 0; d < 3; ++d)
+    if (lattice_.active(d)) h = std::min(h, lattice_.h[d]);
+  lip_force_ = {};
+  r.p.resize(faces);
+  for (size_t f = 0; f < faces; ++f) {
+    const bool thin = !surface_.flags.empty() && surface_.flags[f] & coupling::face_thin;
+    r.p[f] = thin ? p_ref_ + p[0][f] - p[1][f] : p[0][f];
+    const Vec3 area = coupling::area_vector(surface_.x, surface_.quads[f]);
+    if (!wet[f]) {
+      ++r.totals.dry_faces;
+      r.totals.dry_area += norm(area);
+    } else if (!surface_.flags.empty() && surface_.flags[f] & coupling::face_lip) {
+      const double aperture = lips_.aperture(surface_, int32_t(f)), full = r.p[f];
+      const double first = first_aperture_.emplace(surface_.face_id[f], std::max(aperture, 0.0)).first->second;
+      const double open = aperture < Lips::apart ? std::clamp(2 * (aperture - first) / h, 0.0, 1.0) : 1.0;
+      r.p[f] = p_ref_ + open * (full - p_ref_);
+      lip_force_ += (r.p[f] - full) * area;
+    }
+  }
+  return r;
+}
+
+}  // namespace bw::cfd

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// All embedded walls of a run on one lattice, window by window:
+//
+//   walls.begin(surface, x, v);            // where the walls are and go; cells that a crack freed: refill as below
+//   dt = min(dt, walls.largest_step());
+//   each block with walls.near(...):       // in any order, on any thread
+//     cuts.gather(walls.map(), walls.rules(), first_cell);
+//     BlockKernel::advance; CutScheme::correct;        // unless cuts.all_blocked()
+//     for (i in walls.probes_of(...)) walls.set_load(i, scheme.load(...));
+//   loads = walls.loads(dt, ...);          // after a sum of walls.values() over ranks
+//   walls.end(x_end);                      // the nodes have arrived
+//   for (layer = 1 .. walls.changes().layers):         // ghosts exchanged before each
+//     gather and refill the fresh cells of this layer; walls.accept(layer);
+//
+// Every rank holds all walls and gets the same map.
+#pragma once
+#include <unordered_map>
+#include <vector>
+
+#include "cfd/embed/cut_scheme.h"
+#include "cfd/embed/lips.h"
+#include "cfd/embed/motion.h"
+#include "cfd/embed/probes.h"
+#include "coupling/loads.h"
+#include "coupling/node_places.h"
+
+namespace bw::cfd {
+
+class Walls {
+ public:
+  /// block: cells per block and direction; p_ref [Pa]: on faces that see no fluid.
+  Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref);
+
+  /// A window starts: nodes are at x and keep v for the window [n_nodes]. Rescans if the topology is new or the nodes
+  /// are not where end() left them.
+  void begin(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v);
+  /// The window is over: nodes are at x_end.
+  void end(const std::vector<Vec3>& x_end);
+  /// s; no wall goes further than half a cell.
+  double largest_step() const;
+
+  // --- cells
+  // ---------------------------------------------------------------------------------------------------------------
+  const CutMap& map() const { return map_; }
+  const GhostRules& rules() const { return rules_; }
+  /// What the last begin() or end() did. Covered cells still hold their last state; fresh ones wait for theirs.
+  const Changes& changes() const { return changes_; }
+  void accept(int layer);
+  /// Can walls matter to the block with this first cell?
+  bool near(const Index3& first_cell) const;
+
+  // --- loads
+  // ---------------------------------------------------------------------------------------------------------------
+  /// Probes whose cell is in the block with this first cell: [first, last) of probes().
+  struct Range {
+    size_t first, last;
+  };
+  Range probes_of(const Index3& first_cell) const;
+  const std::vector<Probe>& probes() const { return probes_; }
+  void set_load(size_t probe, const WallLoad& load) {
+    values_[2 * probe] = load.p;
+    values_[2 * probe + 1] = load.rho_c;
+  }
+  /// p and rho c by probe; zero where another rank has the block.
+  std::vector<double>& values() { return values_; }
+  /// Pressure and impedance per face, and dry faces, from values(). A thin face carries the difference of its sides on
+  /// top of p_ref. A lip carries p_ref until its crack is wide enough to see fluid; then its pressure goes to the
+  /// fluid's while the crack opens by half a cell more.
+  coupling::Loads loads();
+  /// Impulse that the blending of lips kept from the walls at the last loads() [N s per s of window].
+  Vec3 lip_force() const { return lip_force_; }
+
+  const coupling::WetSurface& surface() const { return surface_; }
+
+ private:
+  void rescan(const std::vector<Vec3>* x_before);
+  size_t block_number(const Index3& cell) const;
+
+  Lattice lattice_;
+  GhostRules rules_;
+  std::array<int, 3> block_, blocks_;
+  double p_ref_;
+  bool placed_ = false;
+  coupling::WetSurface surface_;
+  coupling::NodePlaces places_;
+  Lips lips_;
+  CutMap map_;
+  Changes changes_;
+  std::vector<Probe> probes_;        ///< by block, then face
+  std::vector<size_t> first_probe_;  ///< [block] into probes_
+  std::vector<double> values_;
+  Vec3 lip_force_;
+  std::unordered_map<int64_t, double> first_aperture_;  ///< face_id of a lip -> aperture when it first saw fluid
+};
+
+}  // namespace bw::cfd
