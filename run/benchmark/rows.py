@@ -59,7 +59,7 @@ def solid_rows(name, text):
 BAR = ("[time]\nend = \"80 us\"\nmax_steps = {steps}\n" + output("0 s", "1 us")
        + '[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = 8, along = 80}}\n'
        + 'velocity = [0.0, 0.0, "-227 m/s"]\n' + solid.COPPER.replace("{", "{{").replace("}", "}}")
-       + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n'
+       + '[[solid.condition]]\nkind = "roller"\nnodes = "lower"\nnormal = [0.0, 0.0, 1.0]\n'
        + '[solid.filter]\nkind = "{filter}"\n')
 
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small models for the tests of element, material and step.
 #pragma once
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 
@@ -13,6 +16,9 @@
 #include "csd/step.h"
 
 namespace bw::csd {
+
+/// Goes into the test's report: run/verify shows it.
+inline void record(const char* name, double value) { testing::Test::RecordProperty(name, fmt::format("{:.3g}", value)); }
 
 inline const Elastic copper{8930, 117e9, 0.35};
 inline J2<LinearFlow> copper_j2() { return {copper, LinearFlow{400e6, 100e6}}; }
