@@ -54,6 +54,28 @@ double Fracture::selection(const Mesh& mesh, const Topology& topology, std::span
   return sum / 8;
 }
 
+std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& topology,
+                                              std::span<const double> fail) {
+  const auto is_loose = [&](ElemId e) {
+    const auto& h = mesh.hex[e];
+    return std::all_of(h.begin(), h.end(), [&](NodeId n) { return topology.elements(n).size() == 1; });
+  };
+  std::vector<ElemId> broken;
+  const auto look = [&](ElemId e) {
+    if (seen_step_[e] == step_) return;
+    seen_step_[e] = step_;
+    if (!is_loose(e) && selection(mesh, topology, fail, e) >= 1) broken.push_back(e);
+  };
+  for (int32_t i = 0; i < mesh.elem_count(); ++i) {
+    if (fail[size_t(i)] < 1) continue;
+    look(ElemId(i));
+    if (!input_.is_smoothed) continue;
+    for (const NodeId n : mesh.hex[ElemId(i)])
+      for (const ElemId e : topology.elements(n)) look(e);
+  }
+  return broken;
+}
+
 bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
                        const std::function<Sym3(ElemId)>& sigma, std::span<const double> fail,
                        std::vector<NodeSplit>& splits, std::vector<ElemId>& changed) {
@@ -78,18 +100,21 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
     if (done_step_[e] == step_) return;
     if (const double value = selection(mesh, topology, fail, e); value >= 1) worst.push({value, mesh.elem_gid[e], e});
   };
-  for (int64_t i = 0; i < elems; ++i) {
-    if (fail[size_t(i)] < 1) continue;
-    if (!input_.is_smoothed) {
-      consider(ElemId(i));
-      continue;
+  // most of the broken elements wait: they are found in parallel and are done with, for within a step stresses stay and
+  // faces only open
+  const std::vector<ElemId> broken = broken_elements(mesh, topology, fail);
+  std::vector<char> can_open(broken.size());
+  parallel_for(int64_t(broken.size()), [&](int64_t i) {
+    const ElemId e = broken[size_t(i)];
+    can_open[size_t(i)] = choose_face(mesh, topology, e, x, sigma(e)) >= 0;
+  });
+  for (size_t i = 0; i < broken.size(); ++i) {
+    if (can_open[i]) {
+      consider(broken[i]);
+    } else {
+      done_step_[broken[i]] = step_;
+      ++waiting_;
     }
-    for (const NodeId n : mesh.hex[ElemId(i)])
-      for (const ElemId e : topology.elements(n)) {
-        if (seen_step_[e] == step_) continue;
-        seen_step_[e] = step_;
-        consider(e);
-      }
   }
   std::vector<ElemId> around;  // elements whose value an opened face changed
   while (!worst.empty()) {

@@ -38,9 +38,9 @@ class Fracture {
   /// One step: broken elements, the worst first (ties: lowest elem_gid), open one face each, eq (16). Failure values
   /// are taken anew around every opened face, for its nodes now average over fewer elements. An element without a
   /// joined face in tension waits. x: current positions [m] of the nodes; sigma: mean Cauchy stress [Pa] of an element,
-  /// asked for broken elements only; fail: failure value of each element. Mesh and topology are changed; splits: in
-  /// order, to be passed to State::append_copies; changed: elements with new nodes, ascending. Returns true if there
-  /// are any. The same for any number of threads.
+  /// asked for broken elements only, by several threads at once; fail: failure value of each element. Mesh and topology
+  /// are changed; splits: in order, to be passed to State::append_copies; changed: elements with new nodes, ascending.
+  /// Returns true if there are any. The same for any number of threads.
   bool advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, const std::function<Sym3(ElemId)>& sigma,
                std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed);
 
@@ -56,6 +56,7 @@ class Fracture {
   double nodal(const Topology& topology, std::span<const double> fail, NodeId n);
   void forget(NodeId n);
   void begin_step(const Mesh& mesh);
+  std::vector<ElemId> broken_elements(const Mesh& mesh, const Topology& topology, std::span<const double> fail);
 
   FractureInput input_;
   Field<double, ElemId> weight_;

@@ -149,7 +149,8 @@ Mesh Gmsh::make() const {
   join_repeated(raw);
   const Points points(raw);
   if (points.x.empty())
-    throw InputError(place + ": mesh file '" + file + "': no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
+    throw InputError(place + ": mesh file '" + file +
+                     "': no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
   std::vector<std::array<int32_t, 4>> tets;
   for (const GmshElement& e : raw.elements) {
     if (e.type != tetrahedron) continue;
