@@ -47,14 +47,21 @@ def table(name):
     return [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
 
 
+def start(out, scheme, window, change=("", "")):
+    """The finished pair; `change`: text of the case that is replaced."""
+    os.makedirs(out, exist_ok=True)
+    with open(f"{out}/case.toml", "w") as file:
+        file.write(CASE.format(out=out, scheme=scheme, rollers=ROLLERS).replace(*change))
+    command = f"mpirun -n 1 {FOLDER}/csd {out}/case.toml : -n 1 {FOLDER}/coupled_simple_wave {scheme} {window}"
+    return subprocess.run(command.split(), env=ENVIRONMENT, capture_output=True, text=True, timeout=60)
+
+
 def run(scheme, window):
     """Error of the piston's momentum at 1 ms; its ledger must close."""
     out = f"{OUT}/{scheme}_{window:g}"
-    os.makedirs(out, exist_ok=True)
-    with open(f"{out}/case.toml", "w") as file:
-        file.write(CASE.format(out=out, scheme=scheme, rollers=ROLLERS))
-    command = f"mpirun -n 1 {FOLDER}/csd {out}/case.toml : -n 1 {FOLDER}/coupled_simple_wave {scheme} {window}"
-    subprocess.run(command.split(), env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL, timeout=60)
+    done = start(out, scheme, window)
+    if done.returncode != 0:
+        sys.exit(f"{scheme} {window}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     solid, ledger = table(f"{out}/solid_history.csv"), table(f"{out}/coupling_history.csv")
     if max(row["impulse_defect [1]"] for row in ledger) > 1e-12:
         sys.exit(f"{scheme} {window}: the ledger does not close")
@@ -74,4 +81,14 @@ for scheme, order_wanted, coarsest_wanted in ("fluid_first", None, 1e-4), ("box1
     bad = abs(errors[0]) > coarsest_wanted or (order_wanted is not None and order < order_wanted)
     failed |= bad
     print(f"{'FAILED' if bad else 'ok':6} {scheme:12} errors of u(1 ms): {', '.join(f'{e:+.2e}' for e in errors)}; order {order:.2f}")
+# both programs end with csd's reason and code
+for name, change, code, words in (
+        ("wrong_key", ("neo_hooke", "neo_hook"), 2, ["case.toml:9", "[gas] error: ended from outside"]),
+        ("inverted", ('young_modulus = "1 GPa"', "young_modulus = 1"), 3, ["[csd] error: element 0", "[gas] error: csd (rank 0) FAILED in window"])):
+    done = start(f"{OUT}/{name}", "fluid_first", 2e-5, change)
+    text = done.stdout + done.stderr
+    missing = [w for w in words if w not in text]
+    bad = done.returncode != code or bool(missing)
+    failed |= bad
+    print(f"{'FAILED' if bad else 'ok':6} {name}: exit code {done.returncode}" + (f"; not said: {missing}\n{text}" if bad else ""))
 sys.exit(failed)
