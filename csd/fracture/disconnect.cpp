@@ -69,7 +69,8 @@ int detach_face(Mesh& mesh, Topology& topology, Face f, std::vector<NodeSplit>& 
   for (const int local : face_nodes[f.side]) {
     const NodeId ip = mesh.hex[f.elem][size_t(local)], jp = mesh.hex[f.elem][size_t(across(f.side, local))];
     const auto there = mesh.nodes_of(other);
-    if (std::find(there.begin(), there.end(), ip) == there.end()) continue;  // open already
+    if (std::find(there.begin(), there.end(), ip) == there.end())
+      continue;                 // differs from eq (16), which would crack elsewhere: open already
     std::vector<ElemId> moved;  // eq (16): all elements that contain the edge (ip, jp)
     const auto star = topology.elements(ip);
     for (const ElemId e : star)

@@ -14,7 +14,8 @@ struct Gmsh {
   static constexpr auto name = "gmsh";
   template <class K>
   void describe(K& k) {
-    k.required("file", file, "path of the .msh file, relative to the case file");
+    k.required("file", file,
+               "path of the .msh file (format 2.2 or 4.1, hexahedra or tetrahedra), relative to the case file");
     if (!k.is_manual()) {
       place = k.where("file");
       file = k.resolve_path(file);

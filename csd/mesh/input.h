@@ -32,7 +32,13 @@ struct MeshInput {
   std::string place;  // in the case file, for errors
   template <class K>
   void describe(K& k) {
-    k.pick("kind", kind, "where the mesh comes from", true);
+    k.pick("kind", kind,
+           "where the mesh comes from. Sets of nodes and faces: box x_lower, x_upper .. z_upper; cylinder lower, "
+           "upper, side; tube inner, "
+           "outer, lower, upper; sectors cut_x, cut_y or cut_z by the planes' normals; shell_of_revolution and weapon "
+           "inner, outer (weapon "
+           "also elements nose_plug, base_plug, wall); gmsh the physical groups",
+           true);
     k.optional("scale", scale, dim::none, "factor on all coordinates (0.001 for a file in millimetres)");
     k.expect(scale > 0, "scale", "a positive factor");
     k.optional("turn", turn, dim::none, "rotation about turn_axis through the origin [degrees], after scale");
