@@ -43,6 +43,7 @@ class Patch {
   const double* row(int variable, int k, int j) const { return data_.data() + offset(variable, k, j); }
   ptrdiff_t stride_j() const { return pitch_; }
   ptrdiff_t stride_k() const { return ptrdiff_t(pitch_) * rows_j_; }
+  ptrdiff_t stride_variable() const { return ptrdiff_t(stride_); }
   int pitch() const { return pitch_; }
 
   static constexpr int margin = 4;         ///< doubles before i = 0

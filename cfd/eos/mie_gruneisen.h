@@ -29,9 +29,7 @@ struct EosRange {
 template <class M>
 concept Eos = requires(M m, double rho) {
   { M::name } -> std::convertible_to<const char*>;
-  {
-    M::constant_reference
-    } -> std::convertible_to<bool>;  // Pi and e_ref do not depend on rho: no reference curve in kernels
+  { M::constant_reference } -> std::convertible_to<bool>;  // p_ref constant, e_ref zero
   { m.Gruneisen() } -> std::convertible_to<double>;
   { m.reference(rho) } -> std::same_as<Reference<double>>;
   { m.range() } -> std::same_as<EosRange>;

@@ -87,11 +87,10 @@ struct FiveEquation {
   static void add(const M& m, T arho, T alpha, PiTerms<T>& sum) {
     const double over_G = 1 / m.Gruneisen();
     if constexpr (M::constant_reference) {
-      const Reference<double> r = m.reference(1.0);
-      if (r.p == 0 && r.e == 0) return;
-      sum.pi += arho * r.e - alpha * (r.p * over_G);
-      sum.stiffness += alpha * (-r.p * over_G);
-      sum.dpi += arho * r.e;
+      const double p_ref = m.reference(1.0).p;  // e_ref is zero for these
+      if (p_ref == 0) return;
+      sum.pi += alpha * (-p_ref * over_G);
+      sum.stiffness += alpha * (-p_ref * over_G);
     } else {
       const Reference<T> r = m.reference(arho / max(alpha, T(1e-9)));
       sum.pi += arho * r.e - alpha * (r.p * over_G);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A block and two layers of its neighbours as primitive variables.
+#pragma once
+#include <functional>
+
+#include "cfd/amr/boundary.h"
+#include "cfd/mix/medium.h"
+#include "cfd/state.h"
+
+namespace bw::cfd {
+
+/// Where row or column `index` of a patch comes from.
+struct GhostSource {
+  int offset = 0;                    ///< -1, 0, 1: which block
+  int index = 0;                     ///< row there
+  bool mirror = false;               ///< reverse the normal velocity
+  const double* constant = nullptr;  ///< inflow: U, instead of a block
+};
+
+class Gather {
+ public:
+  Gather(const Forest& forest, const State& state, const Boundary& boundary, const Medium& medium)
+      : forest_(forest), state_(state), boundary_(boundary), medium_(medium) {}
+
+  /// Fills patch from the state's current copies. Where the block and its ghosts hold one gas alone, patch.material
+  /// says so and only that gas's rows (density, v, p, c, rho_c2) are filled, unless all_rows.
+  void fill(int block, Patch& patch, bool all_rows = false) const;
+  /// Nothing can happen in this block: it and all around it is at rest in the same state.
+  bool quiet(int block) const;
+  /// Source of cell `index` (-ghosts .. n + ghosts - 1) of a block in direction d.
+  GhostSource source(int block, int d, int index) const;
+  /// The patch's row Prim::order: 0 where the cell or a neighbour through a face is marked, 1 elsewhere. marks(b):
+  /// cells of block b (local or ghost), or nullptr if none is marked.
+  void fill_order(int block, const std::function<const uint8_t*(int)>& marks, Patch& patch) const;
+
+ private:
+  int material(int block) const;
+  /// U of row (k, j) from i = -ghosts to n + ghosts - 1: variable rows[q] to out[q * pitch + ghosts + i].
+  void conserved_row(int block, int k, int j, const int* rows, int count, double* out, int pitch) const;
+  template <class Pair>
+  void mixed_rows(int block, Patch& patch, const Pair& pair) const;
+  void gas_rows(int block, Patch& patch, const GasFlow& gas) const;
+
+  const Forest& forest_;
+  const State& state_;
+  const Boundary& boundary_;
+  const Medium& medium_;
+};
+
+}  // namespace bw::cfd

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/amr/update.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "cfd/scheme/lane.h"
+
+namespace bw::cfd {
+
+namespace {
+
+/// Extremes of a block, lane by lane.
+struct Extremes {
+  Pack rate = Pack(0.0), alpha_min = Pack(2.0), alpha_max = Pack(-1.0);
+};
+
+/// Lanes at and beyond `left` are neutral.
+Pack first_lanes(Pack a, int left, double neutral) {
+  for (int l = left; l < Pack::size; ++l) a.set(l, neutral);
+  return a;
+}
+
+template <class Pair>
+class Update {
+ public:
+  Update(const UpdateInput& in, const Pair& pair, const BlockShape& shape, const Vec3& lower)
+      : in_(in), pair_(pair), floors_(in.medium->floors), shape_(shape), lower_(lower) {}
+
+  /// All rows: traces, floors and the state's limits cell by cell where a pack needs it.
+  void mixed_row(double* const (&row)[Cons::count], int k, int j, std::vector<uint8_t>& marks, Booked& booked,
+                 UpdateResult& result, Extremes& extremes) {
+    for (int i = 0; i < shape_.n[0]; i += Pack::size) {
+      Pack U[Cons::count], W[Prim::stored];
+      for (int q = 0; q < Cons::count; ++q) U[q] = Pack::load(row[q] + i);
+      const int left = shape_.n[0] - i;
+      const Pack p = pair_.to_primitive(U, W, floors_);
+      const Pack alpha1 = U[Cons::alpha1], alpha2 = Pack(1.0) - alpha1;
+      const Mask none_1 = (alpha1 >= Pack(0.0)) & (alpha1 <= Pack(0.0)),
+                 none_2 = (alpha2 >= Pack(0.0)) & (alpha2 <= Pack(0.0));
+      const Mask trace = ((alpha1 < Pack(alpha_trace)) & !none_1) | ((alpha2 < Pack(alpha_trace)) & !none_2);
+      const Mask fine = (p >= Pack(floors_.p)) & (U[Cons::arho1] >= Pack(0.0)) & (U[Cons::arho2] >= Pack(0.0)) &
+                        (U[Cons::arho1] + U[Cons::arho2] >= Pack(floors_.rho)) & !trace;
+      const bool skip = in_.blocked && any_blocked(shape_.at(k, j, i), left);
+      if (!all(fine) || skip) {
+        for (int l = 0; l < std::min(left, Pack::size); ++l) {
+          const size_t cell = shape_.at(k, j, i + l);
+          if (in_.blocked && in_.blocked[cell])
+            for (Pack* q : {&W[Prim::v], &W[Prim::v_y], &W[Prim::v_z], &W[Prim::c]}) q->set(l, 0.0);
+          else if (!fine[l])
+            mend_cell(row, i + l, cell, k, j, W, l, marks, booked, result);
+        }
+        for (int l = 0; l < std::min(left, Pack::size); ++l)
+          if (!in_.blocked || !in_.blocked[shape_.at(k, j, i + l)]) note_alpha(row[Cons::alpha1][i + l], extremes);
+      } else if (left < Pack::size) {
+        for (int l = 0; l < left; ++l) note_alpha(row[Cons::alpha1][i + l], extremes);
+      } else {
+        extremes.alpha_min = min(extremes.alpha_min, alpha1);
+        extremes.alpha_max = max(extremes.alpha_max, alpha1);
+      }
+      extremes.rate = max(extremes.rate, first_lanes(rate(&W[Prim::v], W[Prim::c]), left, 0.0));
+    }
+  }
+
+  /// One gas alone.
+  void gas_row(const GasFlow& gas, double* const (&row)[Cons::count], int k, int j, std::vector<uint8_t>& marks,
+               Booked& booked, UpdateResult& result, Extremes& extremes) {
+    for (int i = 0; i < shape_.n[0]; i += Pack::size) {
+      Pack U[GasCons::count], W[GasPrim::count], c, rho_c2;
+      for (int q = 0; q < GasCons::count; ++q) U[q] = Pack::load(row[gas.cons_row(q)] + i);
+      const int left = shape_.n[0] - i;
+      const Pack p = gas_to_primitive(gas, U, W, c, rho_c2, floors_);
+      const Mask fine = (p >= Pack(floors_.p)) & (U[GasCons::rho] >= Pack(floors_.rho));
+      if (!all(fine))
+        for (int l = 0; l < std::min(left, Pack::size); ++l)
+          if (!fine[l]) {
+            Pack all_W[Prim::stored];
+            for (auto& w : all_W) w = Pack(0.0);
+            mend_cell(row, i + l, shape_.at(k, j, i + l), k, j, all_W, l, marks, booked, result);
+            for (int q = 1; q < GasPrim::count; ++q) W[q].set(l, all_W[Prim::v + q - 1][l]);
+            c.set(l, all_W[Prim::c][l]);
+          }
+      extremes.rate = max(extremes.rate, first_lanes(rate(&W[GasPrim::v], c), left, 0.0));
+    }
+  }
+
+ private:
+  Pack rate(const Pack* v, Pack c) const {
+    Pack sum(0.0);
+    for (int d = 0; d < 3; ++d)
+      if (shape_.used[d]) sum += (abs(v[d]) + c) * Pack(1 / shape_.h[d]);
+    return sum;
+  }
+  bool any_blocked(size_t cell, int left) const {
+    bool some = false;
+    for (int l = 0; l < std::min(left, Pack::size); ++l) some = some || in_.blocked[cell + size_t(l)];
+    return some;
+  }
+  static void note_alpha(double alpha1, Extremes& e) {
+    e.alpha_min = min(e.alpha_min, Pack(alpha1));
+    e.alpha_max = max(e.alpha_max, Pack(alpha1));
+  }
+  bool unburnt(int k, int j, int i) const {
+    if (!in_.burn) return false;
+    const Vec3 x = lower_ + Vec3{(i + 0.5) * shape_.h.x, (j + 0.5) * shape_.h.y, (k + 0.5) * shape_.h.z};
+    return in_.burn->stored(x, in_.t1) > 0;
+  }
+
+  /// A cell with a trace, a floor or a broken state; sets lane l of W to what it became.
+  void mend_cell(double* const (&row)[Cons::count], int i, size_t cell, int k, int j, Pack (&W)[Prim::stored], int l,
+                 std::vector<uint8_t>& marks, Booked& booked, UpdateResult& result) {
+    double U[Cons::count], w[Prim::stored];
+    for (int q = 0; q < Cons::count; ++q) U[q] = row[q][i];
+    double p = pair_.to_primitive(U, w, floors_);
+    const double rho = U[Cons::arho1] + U[Cons::arho2];
+    if (std::isfinite(p) && rho >= floors_.rho && remove_trace(U, w, booked)) p = pair_.to_primitive(U, w, floors_);
+    const bool stores_energy = U[Cons::arho1] > 0 && unburnt(k, j, i);
+    const bool broken = !(U[Cons::arho1] + U[Cons::arho2] >= floors_.rho) || !(U[Cons::arho1] >= 0) ||
+                        !(U[Cons::arho2] >= 0) || !std::isfinite(p);
+    const bool low = !(p >= floors_.p) && !stores_energy;
+    if (broken || (low && !in_.last_try)) {
+      if (marks.empty()) marks.assign(size_t(shape_.cells()), 0);
+      marks[cell] = 1;
+      if (result.bad++ == 0) result.first_bad = int(cell);
+    } else if (low) {
+      const double before = U[Cons::rhoE];
+      pair_.to_conserved(w, U);  // with p at its floor
+      booked.floor_energy += (U[Cons::rhoE] - before) * shape_.cell_volume();
+      ++booked.floors;
+    }
+    for (int q = 0; q < Cons::count; ++q) row[q][i] = U[q];
+    for (int q = 0; q < Prim::stored; ++q) W[q].set(l, w[q]);
+  }
+
+  /// Takes a material out of the cell where its volume fraction is a trace; p and v stay. false: nothing to remove.
+  bool remove_trace(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
+    const double alpha1 = U[Cons::alpha1];
+    if (alpha1 == 0 || alpha1 == 1 || (alpha1 >= alpha_trace && 1 - alpha1 >= alpha_trace)) {
+      // round-off may leave a tiny density without volume behind
+      if (alpha1 == 0 && U[Cons::arho1] != 0) return empty(U, w, 0, booked);
+      if (alpha1 == 1 && U[Cons::arho2] != 0) return empty(U, w, 1, booked);
+      return empty_negative(U, w, booked);
+    }
+    return empty(U, w, alpha1 < alpha_trace ? 0 : 1, booked);
+  }
+  /// A density just below zero beside a small volume fraction.
+  bool empty_negative(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
+    const double rho = U[Cons::arho1] + U[Cons::arho2];
+    for (int m = 0; m < 2; ++m)
+      if (U[m] < 0 && U[m] > -1e-6 * rho) {
+        w[Prim::arho1 + m] = 0;
+        return settle(U, w, booked);
+      }
+    return false;
+  }
+  bool empty(double (&U)[Cons::count], double (&w)[Prim::stored], int m, Booked& booked) const {
+    w[Prim::arho1 + m] = 0;
+    w[Prim::alpha1] = m == 0 ? 0 : 1;
+    return settle(U, w, booked);
+  }
+  bool settle(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
+    double after[Cons::count];
+    pair_.to_conserved(w, after);
+    for (int q = 0; q < Cons::count; ++q) {
+      booked.cleaned[q] += (U[q] - after[q]) * shape_.cell_volume();
+      U[q] = after[q];
+    }
+    return true;
+  }
+
+  const UpdateInput& in_;
+  const Pair& pair_;
+  const Floors& floors_;
+  const BlockShape& shape_;
+  Vec3 lower_;
+};
+
+/// One material, the same bits everywhere, no momentum?
+void describe_block(const BlockShape& s, const double* U, bool whole, const Extremes& e, BlockInfo& info) {
+  double low = 2, high = -1;
+  info.rate = 0;
+  for (int l = 0; l < Pack::size; ++l) {
+    info.rate = std::max(info.rate, e.rate[l]);
+    low = std::min(low, e.alpha_min[l]), high = std::max(high, e.alpha_max[l]);
+  }
+  info.material = low == 1 && high == 1 ? 1 : low == 0 && high == 0 ? 2 : 0;
+  const size_t n = size_t(s.cells());
+  bool rest = whole;
+  for (int q = 0; q < Cons::count; ++q) {
+    info.U[q] = U[size_t(q) * n];
+    if (q >= Cons::mom && q <= Cons::mom_z) rest = rest && info.U[q] == 0;
+    if (rest) rest = std::memcmp(U + size_t(q) * n, U + size_t(q) * n + 1, (n - 1) * sizeof(double)) == 0;
+  }
+  info.at_rest = rest;
+}
+
+/// Energy released (or carried in stored form): E += s(t0) arho1_old - s(t1) arho1_new.
+void release(const UpdateInput& in, const Patch& patch, int k, int j, const double* arho_old, const double* arho_new,
+             double* rhoE) {
+  const BlockShape& s = patch.shape();
+  for (int i = 0; i < s.n[0]; ++i) {
+    const Vec3 x = patch.lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
+    const double r = in.burn->distance(x);
+    rhoE[i] +=
+        in.burn->q * ((1 - in.burn->burnt(r, in.t0)) * arho_old[i] - (1 - in.burn->burnt(r, in.t1)) * arho_new[i]);
+  }
+}
+
+}  // namespace
+
+UpdateResult update_block(const UpdateInput& in, const Patch& patch, const double* U, const BlockChange& change,
+                          double* out, std::vector<uint8_t>& marks, Booked& booked) {
+  const BlockShape& s = patch.shape();
+  const size_t cells = size_t(s.cells());
+  const int m = patch.material;
+  const bool gas = m != 0 && in.medium->is_gas[m - 1] && !in.burns && !in.blocked;
+  UpdateResult result;
+  Extremes extremes;
+  if (gas) extremes.alpha_min = extremes.alpha_max = Pack(m == 1 ? 1.0 : 0.0);
+  thread_local Aligned<double> rows;
+  const size_t pitch = size_t(change.pitch);
+  rows.resize(pitch * Cons::count);
+  double* row[Cons::count];
+  for (int q = 0; q < Cons::count; ++q) row[q] = rows.data() + pitch * size_t(q);
+  std::visit(
+      [&](const auto& pair) {
+        Update update(in, pair, s, patch.lower);
+        for (int k = 0; k < s.n[2]; ++k)
+          for (int j = 0; j < s.n[1]; ++j) {
+            for (int q = 0; q < Cons::count; ++q) {
+              const double* old = U + size_t(q) * cells + s.at(k, j, 0);
+              const double* d = change.row(q, k, j);
+              const bool owned = !gas || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row;
+              if (owned)
+                for (int i = 0; i < s.n[0]; ++i) row[q][i] = old[i] + d[i];
+              else
+                std::memcpy(row[q], old, size_t(s.n[0]) * sizeof(double));
+            }
+            if (in.blocked)
+              for (int i = 0; i < s.n[0]; ++i)
+                if (in.blocked[s.at(k, j, i)])
+                  for (int q = 0; q < Cons::count; ++q) row[q][i] = U[size_t(q) * cells + s.at(k, j, i)];
+            if (in.burns) release(in, patch, k, j, U + s.at(k, j, 0), row[Cons::arho1], row[Cons::rhoE]);
+            if (gas)
+              update.gas_row(in.medium->gas[m - 1], row, k, j, marks, booked, result, extremes);
+            else
+              update.mixed_row(row, k, j, marks, booked, result, extremes);
+            for (int q = 0; q < Cons::count; ++q)
+              std::memcpy(out + size_t(q) * cells + s.at(k, j, 0), row[q], size_t(s.n[0]) * sizeof(double));
+          }
+      },
+      in.medium->mixture);
+  describe_block(s, out, in.blocked == nullptr, extremes, result.info);
+  return result;
+}
+
+BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const double* U, const uint8_t* blocked) {
+  UpdateInput in;
+  in.medium = &medium;
+  in.blocked = blocked;
+  in.last_try = true;
+  BlockChange none(shape);
+  Patch patch(shape);
+  Aligned<double> copy(size_t(shape.cells()) * Cons::count);
+  std::vector<uint8_t> marks;
+  Booked unused;
+  return update_block(in, patch, U, none, copy.data(), marks, unused).info;
+}
+
+}  // namespace bw::cfd

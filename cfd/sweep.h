@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blocks through one step: gather, kernel, update, on all threads. A step writes spare copies only, so it can be
+// repeated with first-order fluxes at marked cells, or thrown away; commit() makes it the state.
+#pragma once
+#include <optional>
+
+#include "cfd/amr/gather.h"
+#include "cfd/amr/update.h"
+#include "cfd/scheme/block_kernel.h"
+
+namespace bw::cfd {
+
+/// What the flow is made of and bounded by; constant during a run.
+struct FlowSetup {
+  Medium medium;
+  Boundary boundary;
+  std::optional<Burn> burn;
+  bool skip_quiet = true;  ///< leave out blocks in which nothing can happen (same bits either way)
+};
+
+/// Where a step failed for good.
+struct BadCell {
+  int block = -1, cell = -1;
+};
+
+class Sweep {
+ public:
+  Sweep(const Forest& forest, const FlowSetup& setup);
+
+  /// Copies of other ranks' blocks and their info: before select() and advance().
+  void exchange(State& s) const;
+  /// Chooses the blocks of a step of size dt.
+  void select(const State& s, double dt);
+  /// Steps the chosen blocks.
+  void advance(State& s);
+  /// Cells with a state that can't be used, on all ranks.
+  int64_t bad() const { return bad_; }
+  /// Steps the blocks around bad cells again, first order there.
+  void repeat_first_order(State& s);
+  /// The step counts.
+  void commit(State& s);
+  /// The first bad cell of this rank.
+  BadCell first_bad() const;
+  /// Largest sum_d (|v_d| + c)/h_d over all ranks, with what a burning front will need until t + its answer.
+  double max_rate(const State& s) const;
+  const std::vector<int>& active() const { return active_; }
+
+ private:
+  struct Space {
+    Patch patch;
+    BlockChange change;
+    std::optional<BlockKernel<GasFlow, Pack>> gas;
+    std::optional<BlockKernel<MixedFlow, Pack>> mixed;
+  };
+  void run_blocks(State& s, const std::vector<int>& blocks, bool first_order);
+  void one_block(State& s, int block, bool first_order, Space& space);
+  void rest_at_sides(const State& s, int block, Booked& booked) const;
+  std::vector<int> around_marked() const;
+  bool burns(int block) const;
+  void count_bad();
+
+  const Forest& forest_;
+  const FlowSetup& setup_;
+  double t_ = 0, dt_ = 0;
+  std::vector<int> active_;
+  std::vector<UpdateResult> result_;               ///< [local block]
+  std::vector<Booked> pending_;                    ///< [local block] of this step
+  std::vector<std::vector<uint8_t>> marks_;        ///< [local block] bad cells of the last pass
+  std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order
+  std::vector<uint8_t> ghost_marks_;               ///< of other ranks' blocks, when any rank has marks
+  int64_t bad_ = 0;
+  std::vector<Space> spaces_;
+};
+
+}  // namespace bw::cfd
