@@ -2,24 +2,35 @@
 #include "cfd/sweep.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 
 #include "common/parallel/loop.h"
 
 namespace bw::cfd {
 
-Sweep::Sweep(const Forest& forest, const FlowSetup& setup)
+Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     : forest_(forest),
       setup_(setup),
+      walls_(walls),
       result_(size_t(forest.local_blocks())),
       pending_(size_t(forest.local_blocks())),
       marks_(size_t(forest.local_blocks())),
-      first_order_(size_t(forest.local_blocks())) {
+      first_order_(size_t(forest.local_blocks())),
+      near_(size_t(forest.local_blocks()), far),
+      wall_(size_t(forest.local_blocks())) {
   spaces_.resize(size_t(thread_count()));
   for (Space& space : spaces_) {
     space.patch = Patch(forest.shape());
     space.change = BlockChange(forest.shape());
     space.gas.emplace(forest.shape());
     space.mixed.emplace(forest.shape());
+    if (!walls_) continue;
+    space.cuts = PatchCuts(forest.shape());
+    for (int m = 0; m < 2; ++m)
+      if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.shape());
+    space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.shape());
   }
 }
 
@@ -45,6 +56,15 @@ void Sweep::select(const State& s, double dt) {
   const Gather gather(forest_, s, setup_.boundary, setup_.medium);
   for (int b = 0; b < forest_.local_blocks(); ++b) {
     pending_[size_t(b)] = Booked{};
+    wall_[size_t(b)] = {};
+    if (walls_) {
+      const Index3 first = forest_.first_cell(b), n = forest_.shape().n;
+      near_[size_t(b)] = !walls_->near(first)                                                                      ? far
+                         : walls_->map().all_blocked(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]}) ? metal
+                                                                                                                   : near;
+      if (near_[size_t(b)] == near) active_.push_back(b);
+      if (near_[size_t(b)] != far) continue;
+    }
     const bool inert = s.info[size_t(b)].material == 2;
     if (!setup_.skip_quiet || !gather.quiet(b) || (!inert && burns(b)))
       active_.push_back(b);
@@ -97,6 +117,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
     space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);
+  if (near_[size_t(block)] == near) in.blocked = meet_walls(block, space);
   marks_[size_t(block)].clear();
   result_[size_t(block)] =
       update_block(in, patch, s.block(block), change, s.spare(block), marks_[size_t(block)], booked);
@@ -104,6 +125,102 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     for (int q = 0; q < Cons::count; ++q) booked.side[side][q] += change.side[side][q] * shape.cell_volume();
   booked.scaled_cells += change.scaled_cells;
   booked.updates += shape.cells();
+}
+
+const uint8_t* Sweep::meet_walls(int block, Space& space) {
+  const Index3 first = forest_.first_cell(block);
+  space.cuts.gather(walls_->map(), walls_->rules(), first);
+  if (!space.cuts.any()) return nullptr;
+  wall_[size_t(block)] = {};
+  cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)]);
+  load_probes(block, space, dt_);
+  const BlockShape& s = forest_.shape();
+  space.blocked.assign(size_t(s.cells()), 0);
+  bool any = false;
+  for (int k = 0; k < s.n[2]; ++k)
+    for (int j = 0; j < s.n[1]; ++j)
+      for (int i = 0; i < s.n[0]; ++i) {
+        space.blocked[s.at(k, j, i)] = space.cuts.blocked(space.cuts.at(k, j, i));
+        any = any || space.blocked[s.at(k, j, i)];
+      }
+  return any ? space.blocked.data() : nullptr;
+}
+
+/// dt: of the step that the scheme was prepared for; the walls stand where they are at its middle.
+void Sweep::load_probes(int block, Space& space, double dt) {
+  const Index3 first = forest_.first_cell(block);
+  const Walls::Range range = walls_->probes_of(first);
+  for (size_t i = range.first; i < range.last; ++i) {
+    const Probe& p = walls_->probes()[i];
+    const Index3 cell{p.cell[0] - first[0], p.cell[1] - first[1], p.cell[2] - first[2]};
+    walls_->set_load(i, cut_scheme(space).load(cell, p.x + 0.5 * dt * p.v, p.n, p.v));
+  }
+}
+
+void Sweep::measure_loads(const State& s) {
+  const Gather gather(forest_, s, setup_.boundary, setup_.medium);
+  parallel_for_dynamic(forest_.local_blocks(), spaces_, [&](int64_t b, Space& space) {
+    const Index3 first = forest_.first_cell(int(b));
+    if (const Walls::Range range = walls_->probes_of(first); range.first == range.last) return;
+    gather.fill(int(b), space.patch);
+    space.cuts.gather(walls_->map(), walls_->rules(), first);
+    cut_scheme(space).begin(space.patch, space.cuts, 0);
+    load_probes(int(b), space, 0);
+  });
+}
+
+WallExchange Sweep::wall_exchange() const {
+  WallExchange sum;
+  for (int b : active_) sum += wall_[size_t(b)];
+  double values[5] = {sum.mass, sum.momentum.x, sum.momentum.y, sum.momentum.z, sum.energy};
+  forest_.comm().sum(values);
+  return {values[0], {values[1], values[2], values[3]}, values[4], forest_.comm().sum(sum.links)};
+}
+
+void Sweep::refill(State& s, std::vector<int>& changed) {
+  const Changes& changes = walls_->changes();
+  const BlockShape& shape = forest_.shape();
+  std::map<std::array<int, 3>, int> block_at;
+  for (int b = 0; b < forest_.local_blocks(); ++b) block_at[forest_.place(b)] = b;
+  const auto block_of = [&](const Index3& c) {
+    const auto found = block_at.find({c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]});
+    return found == block_at.end() ? -1 : found->second;
+  };
+  std::set<int> touched;
+  for (const Index3& c : changes.covered)
+    if (const int b = block_of(c); b >= 0) touched.insert(b);
+  for (int layer = 1; layer <= changes.layers; ++layer) {
+    std::map<int, std::vector<Index3>> cells;  // by block
+    for (const FreshCell& f : changes.fresh)
+      if (const int b = block_of(f.cell); f.layer == layer && b >= 0) cells[b].push_back(f.cell);
+    std::vector<int> blocks;
+    for (const auto& [b, list] : cells) blocks.push_back(b), touched.insert(b);
+    exchange(s);
+    const Gather gather(forest_, s, setup_.boundary, setup_.medium);
+    std::vector<std::vector<std::array<double, Cons::count>>> fresh(blocks.size());
+    std::vector<std::vector<uint8_t>> found(blocks.size());
+    parallel_for_dynamic(int64_t(blocks.size()), spaces_, [&](int64_t i, Space& space) {
+      const int b = blocks[size_t(i)];
+      const Index3 first = forest_.first_cell(b);
+      gather.fill(b, space.patch, true);
+      space.cuts.gather(walls_->map(), walls_->rules(), first);
+      for (const Index3& c : cells[b]) {
+        double U[Cons::count];
+        const bool ok = space.cut_mixed->refill(space.patch, space.cuts, {c[0] - first[0], c[1] - first[1], c[2] - first[2]}, U);
+        found[size_t(i)].push_back(ok);
+        fresh[size_t(i)].push_back(std::to_array(U));
+      }
+    });
+    for (size_t i = 0; i < blocks.size(); ++i)
+      for (size_t n = 0; n < fresh[i].size(); ++n) {
+        if (!found[i][n]) continue;
+        const Index3 c = cells[blocks[i]][n], first = forest_.first_cell(blocks[i]);
+        for (int q = 0; q < Cons::count; ++q)
+          s.block(blocks[i], q)[shape.at(c[2] - first[2], c[1] - first[1], c[0] - first[0])] = fresh[i][n][size_t(q)];
+      }
+    walls_->accept(layer);
+  }
+  changed.insert(changed.end(), touched.begin(), touched.end());
 }
 
 void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_order) {

@@ -2,10 +2,12 @@
 // Blocks through one step: gather, kernel, update, on all threads. A step writes spare copies only, so it can be
 // repeated with first-order fluxes at marked cells, or thrown away; commit() makes it the state.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "cfd/amr/gather.h"
 #include "cfd/amr/update.h"
+#include "cfd/embed/walls.h"
 #include "cfd/scheme/block_kernel.h"
 
 namespace bw::cfd {
@@ -25,7 +27,8 @@ struct BadCell {
 
 class Sweep {
  public:
-  Sweep(const Forest& forest, const FlowSetup& setup);
+  /// walls: nullptr if there are none; probes get their loads in advance().
+  Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls);
 
   /// Copies of other ranks' blocks and their info: before select() and advance().
   void exchange(State& s) const;
@@ -44,6 +47,12 @@ class Sweep {
   /// Largest sum_d (|v_d| + c)/h_d over all ranks, with what a burning front will need until t + its answer.
   double max_rate(const State& s) const;
   const std::vector<int>& active() const { return active_; }
+  /// What the fluid gave to the walls in the step, all ranks.
+  WallExchange wall_exchange() const;
+  /// Loads of all probes from the state as it is (advance() makes those of mid-step).
+  void measure_loads(const State& s);
+  /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks to inspect.
+  void refill(State& s, std::vector<int>& changed);
 
  private:
   struct Space {
@@ -51,7 +60,18 @@ class Sweep {
     BlockChange change;
     std::optional<BlockKernel<GasFlow, Pack>> gas;
     std::optional<BlockKernel<MixedFlow, Pack>> mixed;
+    PatchCuts cuts;
+    std::unique_ptr<CutScheme> cut_gas[2], cut_mixed;  ///< made when there are walls
+    std::vector<uint8_t> blocked;
   };
+  enum Near : uint8_t { far, near, metal };
+  bool is_gas(const Patch& patch) const { return patch.material != 0 && setup_.medium.is_gas[patch.material - 1]; }
+  CutScheme& cut_scheme(Space& space) const {
+    return is_gas(space.patch) ? *space.cut_gas[space.patch.material - 1] : *space.cut_mixed;
+  }
+  /// Corrects the change beside walls, loads the block's probes; returns the cells without fluid, nullptr if there are none.
+  const uint8_t* meet_walls(int block, Space& space);
+  void load_probes(int block, Space& space, double dt);
   void run_blocks(State& s, const std::vector<int>& blocks, bool first_order);
   void one_block(State& s, int block, bool first_order, Space& space);
   void rest_at_sides(const State& s, int block, Booked& booked) const;
@@ -61,12 +81,15 @@ class Sweep {
 
   const Forest& forest_;
   const FlowSetup& setup_;
+  Walls* walls_;
   double t_ = 0, dt_ = 0;
   std::vector<int> active_;
   std::vector<UpdateResult> result_;               ///< [local block]
   std::vector<Booked> pending_;                    ///< [local block] of this step
   std::vector<std::vector<uint8_t>> marks_;        ///< [local block] bad cells of the last pass
   std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order
+  std::vector<Near> near_;                         ///< [local block]
+  std::vector<WallExchange> wall_;                 ///< [local block] of this step
   std::vector<uint8_t> ghost_marks_;               ///< of other ranks' blocks, when any rank has marks
   int64_t bad_ = 0;
   std::vector<Space> spaces_;

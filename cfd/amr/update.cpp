@@ -213,7 +213,8 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
   const BlockShape& s = patch.shape();
   const size_t cells = size_t(s.cells());
   const int m = patch.material;
-  const bool gas = m != 0 && in.medium->is_gas[m - 1] && !in.burns && !in.blocked;
+  const bool by_gas_kernel = m != 0 && in.medium->is_gas[m - 1];  // its rows of `change` alone are made
+  const bool gas = by_gas_kernel && !in.burns && !in.blocked;
   UpdateResult result;
   Extremes extremes;
   if (gas) extremes.alpha_min = extremes.alpha_max = Pack(m == 1 ? 1.0 : 0.0);
@@ -230,7 +231,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
             for (int q = 0; q < Cons::count; ++q) {
               const double* old = U + size_t(q) * cells + s.at(k, j, 0);
               const double* d = change.row(q, k, j);
-              const bool owned = !gas || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row;
+              const bool owned = !by_gas_kernel || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row;
               if (owned)
                 for (int i = 0; i < s.n[0]; ++i) row[q][i] = old[i] + d[i];
               else

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/build.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cfd/embed/cavity.h"
+#include "cfd/eos/library.h"
+#include "cfd/source/detonation.h"
+#include "common/app/log.h"
+#include "common/parallel/loop.h"
+
+namespace bw::cfd {
+namespace {
+
+constexpr double atmosphere = 101325;  ///< Pa, where an explosive's energy is counted from
+
+/// An explosive that burns measures its energy from its unburnt state (Jwl::e_shift).
+EosChoice for_run(const Case& cs, const MaterialCase& m) {
+  EosChoice eos = *m.eos;
+  if (!cs.fluid.burn.empty() && cs.fluid.burn[0].material == m.name) {
+    Jwl& jwl = std::get<Jwl>(eos);
+    jwl.e_shift = unburnt_energy(jwl, atmosphere);
+  }
+  return eos;
+}
+
+Medium make_medium(const Case& cs) {
+  std::vector<std::string> names;
+  std::vector<EosChoice> eos;
+  for (const MaterialCase& m : cs.fluid.material) {
+    names.push_back(m.name);
+    eos.push_back(for_run(cs, m));
+  }
+  return Medium(names, eos, cs.fluid.scheme.floors);
+}
+
+/// Conserved state of a cell full of one material.
+void state_of(const Medium& medium, const Case& cs, const StateCase& s, double (&U)[Cons::count]) {
+  const int m = cs.fluid.material_index(s.material, s.place);
+  double W[Prim::stored] = {};
+  const double density = s.unburnt ? std::get<Jwl>(medium.eos[m]).rho0 : s.density;
+  W[Prim::arho1 + m] = density;
+  for (int d = 0; d < 3; ++d) W[Prim::v + d] = s.velocity[d];
+  W[Prim::p] = s.pressure;
+  W[Prim::alpha1] = m == 0 ? 1 : 0;
+  std::visit([&](const auto& pair) { pair.to_conserved(W, U); }, medium.mixture);
+}
+
+Boundary make_boundary(const Medium& medium, const Case& cs) {
+  static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+  Boundary b;
+  for (size_t i = 0; i < 6; ++i) {
+    const std::string& kind = cs.fluid.boundary.side[i];
+    b.side[i].kind = kind == "outflow"    ? SideKind::outflow
+                     : kind == "periodic" ? SideKind::periodic
+                     : kind == "inflow"   ? SideKind::inflow
+                                          : SideKind::wall;
+    for (const InflowCase& in : cs.fluid.inflow)
+      if (in.side == names[i]) state_of(medium, cs, in, b.side[i].U);
+  }
+  return b;
+}
+
+void report_detonation(const MaterialCase& m, const Jwl& jwl, const CjState& cj) {
+  say("{}: D = {:.1f} m/s, P_CJ = {:.3f} GPa from its JWL set", m.name, cj.D, 1e-9 * cj.p);
+  if (jwl.D > 0 && std::abs(cj.D / jwl.D - 1) > 0.005)
+    warn("{}: the JWL set gives D = {:.1f} m/s, tabulated are {:.1f}: the set is not consistent; the computed one is used", m.name, cj.D, jwl.D);
+  if (jwl.p_CJ > 0 && std::abs(cj.p / jwl.p_CJ - 1) > 0.02)
+    warn("{}: the JWL set gives P_CJ = {:.3f} GPa, tabulated are {:.3f}", m.name, 1e-9 * cj.p, 1e-9 * jwl.p_CJ);
+}
+
+std::optional<Burn> make_burn(const Case& cs, const BlockShape& shape, const GridSize& grid) {
+  if (cs.fluid.burn.empty()) return {};
+  const BurnCase& b = cs.fluid.burn[0];
+  const MaterialCase& m = cs.fluid.material[size_t(cs.fluid.material_index(b.material, b.place))];
+  const Jwl jwl = std::get<Jwl>(*m.eos);
+  const CjState cj = cj_state(jwl);
+  report_detonation(m, jwl, cj);
+  Burn burn;
+  burn.points = b.points;
+  burn.start = b.start;
+  burn.D = cj.D;
+  burn.width = b.width;
+  burn.q = released_energy(jwl, atmosphere);
+  burn.c_CJ = cj.c;
+  for (int d = 0; d < 3; ++d)
+    if (shape.used[size_t(d)]) {
+      burn.h = std::max(burn.h, shape.h[d]);
+    } else {
+      for (Vec3& p : burn.points) p[d] = 0.5 * (grid.lower[d] + grid.upper[d]);
+    }
+  return burn;
+}
+
+GhostRules ghost_rules(const Boundary& b) {
+  GhostRules rules;
+  for (size_t i = 0; i < 6; ++i)
+    rules[i] = b.side[i].kind == SideKind::wall       ? GhostRule::mirror
+               : b.side[i].kind == SideKind::periodic ? GhostRule::periodic
+                                                      : GhostRule::copy;
+  return rules;
+}
+
+/// Share of a cell inside the shape, from samples^3 points where its edge may pass through the cell.
+double share_inside(const auto& shape, const Vec3& centre, const BlockShape& s) {
+  double half_diagonal = 0;
+  for (int d = 0; d < 3; ++d)
+    if (s.used[size_t(d)]) half_diagonal += 0.25 * s.h[d] * s.h[d];
+  half_diagonal = std::sqrt(half_diagonal);
+  const double distance = shape.distance(centre);
+  if (distance >= half_diagonal) return 0;
+  if (distance <= -half_diagonal) return 1;
+  constexpr int samples = 8;
+  const int n[3] = {s.used[0] ? samples : 1, s.used[1] ? samples : 1, s.used[2] ? samples : 1};
+  int inside = 0;
+  for (int c = 0; c < n[2]; ++c)
+    for (int b = 0; b < n[1]; ++b)
+      for (int a = 0; a < n[0]; ++a) {
+        const Vec3 x = centre + Vec3{((a + 0.5) / n[0] - 0.5) * s.h.x, ((b + 0.5) / n[1] - 0.5) * s.h.y,
+                                     ((c + 0.5) / n[2] - 0.5) * s.h.z};
+        inside += shape.distance(x) < 0;
+      }
+  return double(inside) / (n[0] * n[1] * n[2]);
+}
+
+/// U of a cell, its share `f` replaced by `fresh`.
+void blend(State& state, int block, size_t cell, const double (&fresh)[Cons::count], double f) {
+  for (int q = 0; q < Cons::count; ++q) {
+    double& u = state.block(block, q)[cell];
+    u = f == 1 ? fresh[q] : u + f * (fresh[q] - u);
+  }
+}
+
+template <class Shape>
+void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
+  const BlockShape& s = m.forest.shape();
+  parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
+    const Vec3 lower = m.forest.lower(int(b));
+    for (int k = 0; k < s.n[2]; ++k)
+      for (int j = 0; j < s.n[1]; ++j)
+        for (int i = 0; i < s.n[0]; ++i) {
+          const Vec3 x = lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
+          if (const double f = share_inside(shape, x, s); f > 0) blend(m.state, int(b), s.at(k, j, i), U, f);
+        }
+  });
+}
+
+void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::count]) {
+  if (!m.walls) throw InputError(fmt::format("{}: shape: a cavity needs the surface of a body, from csd or from [[fluid.body]]", region.place));
+  const Cavity cavity = find_cavity(m.walls->surface(), m.walls->map(), shape.seed);
+  if (cavity.cells.empty()) throw InputError(fmt::format("{}: seed: the point lies in metal or outside the domain", region.place));
+  if (cavity.reaches_boundary)
+    throw InputError(fmt::format("{}: seed: from this point the side of the domain is reached: no closed surface is around it", region.place));
+  std::vector<Index3> cells = cavity.cells;
+  const BlockShape& s = m.forest.shape();
+  std::vector<std::vector<Index3>> by_block(size_t(m.forest.local_blocks()));
+  std::vector<std::vector<int>> slot;
+  std::map<Index3, int> block_at;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) block_at[m.forest.place(b)] = b;
+  for (const Index3& c : cells) {
+    const auto found = block_at.find({c[0] / s.n[0], c[1] / s.n[1], c[2] / s.n[2]});
+    if (found == block_at.end()) continue;
+    blend(m.state, found->second, s.at(c[2] % s.n[2], c[1] % s.n[1], c[0] % s.n[0]), U, 1);
+  }
+  const double density = U[Cons::arho1] + U[Cons::arho2];
+  m.cavity_mass += density * cavity.exact_volume;
+  say("cavity of {:.6g} m^3 ({:.6g} in {} cells, {:+.3f} %): {:.6g} kg of {}", cavity.exact_volume, cavity.cell_volume, cells.size(),
+      100 * (cavity.cell_volume / cavity.exact_volume - 1), density * cavity.cell_volume, region.material);
+}
+
+/// A detonation point must lie in unburnt explosive; everything is burnt when the front has crossed all of it.
+void check_burn(Model& m, const Case& cs) {
+  Burn& burn = *m.setup.burn;
+  const BlockShape& s = m.forest.shape();
+  int64_t in_explosive = 0;
+  for (const Vec3& p : burn.points) {
+    const Forest::Cell c = m.forest.find(p);
+    const bool blocked = c.block >= 0 && m.walls &&
+                         [&] { const auto f = m.forest.first_cell(c.block); return m.walls->map().blocked({f[0] + c.i, f[1] + c.j, f[2] + c.k}); }();
+    if (m.forest.comm().max(int64_t(c.block >= 0 && !blocked && m.state.block(c.block, Cons::alpha1)[s.at(c.k, c.j, c.i)] > 0.5)) > 0) ++in_explosive;
+  }
+  if (in_explosive < int64_t(burn.points.size()))
+    throw InputError(fmt::format("{}: points: expected detonation points inside the explosive", cs.fluid.burn[0].place));
+  double far = 0;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) {
+    const Vec3 lower = m.forest.lower(b);
+    const std::vector<uint8_t> blocked = blocked_cells(m, b);
+    for (int k = 0; k < s.n[2]; ++k)
+      for (int j = 0; j < s.n[1]; ++j)
+        for (int i = 0; i < s.n[0]; ++i) {
+          const size_t cell = s.at(k, j, i);
+          if (!(m.state.block(b, Cons::alpha1)[cell] > 0) || (!blocked.empty() && blocked[cell])) continue;
+          far = std::max(far, burn.distance(lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z}));
+        }
+  }
+  far = m.forest.comm().max(far);
+  burn.t_all = burn.start + (2 * far + (burn.width + 2) * burn.h) / burn.D;  // the explosive may have moved meanwhile
+}
+
+}  // namespace
+
+Model::Model(const Comm& comm, const Case& cs)
+    : forest(comm, cs.fluid.grid), state(forest) {
+  setup.medium = make_medium(cs);
+  setup.boundary = make_boundary(setup.medium, cs);
+  setup.burn = make_burn(cs, forest.shape(), cs.fluid.grid);
+  setup.skip_quiet = cs.fluid.scheme.skip_quiet;
+}
+
+void add_walls(Model& m, double p_ref) {
+  const GridSize& size = m.forest.size();
+  const BlockShape& s = m.forest.shape();
+  Lattice lattice{size.lower, s.h, {size.cells[0], size.cells[1], size.cells[2]}};
+  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref);
+}
+
+std::vector<uint8_t> blocked_cells(const Model& m, int block) {
+  std::vector<uint8_t> blocked;
+  const Index3 first = m.forest.first_cell(block);
+  if (!m.walls || !m.walls->near(first)) return blocked;
+  const BlockShape& s = m.forest.shape();
+  blocked.assign(size_t(s.cells()), 0);
+  bool any = false;
+  for (int k = 0; k < s.n[2]; ++k)
+    for (int j = 0; j < s.n[1]; ++j)
+      for (int i = 0; i < s.n[0]; ++i) {
+        blocked[s.at(k, j, i)] = m.walls->map().blocked({first[0] + i, first[1] + j, first[2] + k});
+        any = any || blocked[s.at(k, j, i)];
+      }
+  if (!any) blocked.clear();
+  return blocked;
+}
+
+void inspect(Model& m, const std::vector<int>& blocks) {
+  parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
+    const int b = blocks[size_t(i)];
+    const std::vector<uint8_t> blocked = blocked_cells(m, b);
+    m.state.info[size_t(b)] = inspect_block(m.setup.medium, m.forest.shape(), m.state.block(b), blocked.empty() ? nullptr : blocked.data());
+  });
+}
+
+void paint(Model& m, const Case& cs) {
+  for (const RegionCase& r : cs.fluid.region) {
+    double U[Cons::count];
+    state_of(m.setup.medium, cs, r, U);
+    std::visit(
+        [&](const auto& shape) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, CavityRegion>)
+            paint_cavity(m, shape, r, U);
+          else
+            paint_shape(m, shape, U);
+        },
+        r.shape);
+  }
+  double unpainted = 0;
+  std::vector<int> all;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) {
+    all.push_back(b);
+    const double* rho1 = m.state.block(b, Cons::arho1);
+    const double* rho2 = m.state.block(b, Cons::arho2);
+    for (int c = 0; c < m.forest.shape().cells(); ++c)
+      if (!(rho1[c] + rho2[c] > 0)) ++unpainted;
+  }
+  if (const double n = m.forest.comm().sum(unpainted); n > 0)
+    throw InputError(fmt::format("{}: fluid.region: {:g} cells belong to no region: begin with shape = {{kind = \"everywhere\"}}", cs.file, n));
+  if (m.setup.burn) check_burn(m, cs);
+  inspect(m, all);
+}
+
+}  // namespace bw::cfd

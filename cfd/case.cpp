@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cfd/eos/library.h"
+
+namespace bw::cfd {
+namespace {
+
+struct Root {
+  RunControl& run;
+  FluidCase& fluid;
+  coupling::CouplingCase& coupling;
+  void describe(Keys& k) {
+    run.describe(k);
+    k.table("fluid", fluid, "the fluid program, cfd");
+    std::optional<coupling::CouplingCase> table;
+    k.table("coupling", table, "how the two programs work together");
+    if (table) coupling = *table;
+  }
+};
+
+}  // namespace
+
+void MaterialCase::resolve(Keys& k) {
+  if (eos && !library.empty()) k.fail("library", "either library or eos, not both");
+  if (!library.empty()) {
+    eos = from_library(library);
+    if (!eos) k.fail("library", fmt::format("one of {}, not \"{}\"", fmt::join(library_names(), ", "), library));
+  }
+  if (!eos) k.fail("eos", "an equation of state: eos = {kind = ...} or library = \"...\"");
+}
+
+void FluidCase::describe(Keys& k) {
+  std::vector<int> cells(grid.cells.begin(), grid.cells.end());
+  k.optional("threads", threads, "threads of the fluid program; 0: what OMP_NUM_THREADS or the machine gives");
+  k.required("lower", grid.lower, dim::length, "lower corner of the domain");
+  k.required("upper", grid.upper, dim::length, "upper corner of the domain");
+  k.required("cells", cells, "cells in x, y, z; 1 leaves a direction out: 1-D and 2-D runs");
+  k.expect(cells.size() == 3, "cells", "three numbers of cells");
+  for (size_t d = 0; d < 3 && d < cells.size(); ++d) {
+    k.expect(cells[d] > 0, "cells", "positive numbers");
+    k.expect(cells[d] != 2 && cells[d] != 3, "cells", "1 or at least 4 cells in a direction");
+    k.expect(grid.upper[int(d)] > grid.lower[int(d)], "upper", "a point above lower in x, y and z");
+    grid.cells[d] = cells[d];
+  }
+  k.table("boundary", boundary, "the six sides of the domain");
+  for (size_t d = 0; d < 3; ++d) grid.periodic[d] = boundary.side[2 * d] == "periodic";
+  k.table("scheme", scheme, "the flow solver");
+  k.tables("material", material, "one or two materials");
+  k.tables("region", region, "the state at t = 0");
+  k.tables("inflow", inflow, "states of sides declared \"inflow\"");
+  k.tables("burn", burn, "programmed burn of an explosive");
+  k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
+  k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv");
+  k.tables("line", line, "profiles along lines, at the times of the field files and at the end");
+  if (!k.is_manual()) check(k);
+  // the flow kernels carry stored energy with material 1
+  if (material.size() == 2 && !burn.empty() && material[1].name == burn[0].material) std::swap(material[0], material[1]);
+}
+
+int FluidCase::material_index(const std::string& name, const std::string& place) const {
+  for (size_t m = 0; m < material.size(); ++m)
+    if (material[m].name == name) return int(m);
+  std::vector<std::string> names;
+  for (const auto& m : material) names.push_back(m.name);
+  throw InputError(fmt::format("{}: expected the name of a [[fluid.material]] ({}), not \"{}\"", place,
+                               fmt::join(names, ", "), name));
+}
+
+void FluidCase::check(Keys& k) const {
+  if (material.empty() || material.size() > 2) k.fail("material", "one or two [[fluid.material]] tables");
+  if (material.size() == 2 && material[0].name == material[1].name) k.fail("material", "two names that differ");
+  if (region.empty()) k.fail("region", "at least one [[fluid.region]]: the state at t = 0");
+  const auto check_state = [&](const StateCase& s) {
+    const int m = material_index(s.material, s.place);
+    const auto& eos = *material[size_t(m)].eos;
+    if (s.unburnt && !std::holds_alternative<Jwl>(eos))
+      throw InputError(fmt::format("{}: unburnt: expected a material with a JWL equation of state", s.place));
+    const double least = std::holds_alternative<StiffenedGas>(eos) ? -std::get<StiffenedGas>(eos).p_inf : 0;
+    if (!(s.pressure > least))
+      throw InputError(fmt::format("{}: pressure: expected a pressure above {:g} Pa", s.place, least));
+  };
+  for (const auto& r : region) check_state(r);
+  for (const auto& i : inflow) check_state(i);
+  static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+  for (size_t s = 0; s < 6; ++s) {
+    const auto states = std::count_if(inflow.begin(), inflow.end(), [&](const auto& i) { return i.side == names[s]; });
+    if ((boundary.side[s] == "inflow") != (states == 1))
+      k.fail("boundary", fmt::format("one [[fluid.inflow]] for each side that is \"inflow\", and for no other: see {}", names[s]));
+  }
+  if (burn.size() > 1) k.fail("burn", "at most one [[fluid.burn]]; it may have several points");
+  for (const auto& b : burn) {
+    const int m = material_index(b.material, b.place);
+    if (!std::holds_alternative<Jwl>(*material[size_t(m)].eos))
+      throw InputError(fmt::format("{}: material: expected an explosive (a JWL equation of state), \"{}\" is none", b.place, b.material));
+    if (std::none_of(region.begin(), region.end(), [&](const auto& r) { return r.material == b.material && r.unburnt; }))
+      throw InputError(fmt::format("{}: burn: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
+  }
+  const auto inside = [&](const Vec3& x) {
+    for (int d = 0; d < 3; ++d)
+      if (x[d] < grid.lower[d] || x[d] > grid.upper[d]) return false;
+    return true;
+  };
+  for (const auto& g : gauge)
+    if (!inside(g.position)) throw InputError(fmt::format("{}: expected a point inside the domain", g.place));
+  for (const auto& l : line)
+    if (!inside(l.from) || !inside(l.to)) throw InputError(fmt::format("{}: expected a line inside the domain", l.place));
+}
+
+Case read_case(const CommandLine& line) {
+  Case cs;
+  cs.file = line.case_file;
+  Keys k = Keys::read_file(line.case_file);
+  cs.has_solid = k.has("solid");
+  Root{cs.run, cs.fluid, cs.coupling}.describe(k);
+  k.finish({"solid"});
+  line.apply(cs.run);
+  if (line.threads > 0) cs.fluid.threads = line.threads;
+  return cs;
+}
+
+std::string case_manual() {
+  Keys k = Keys::manual();
+  Case cs;
+  Root{cs.run, cs.fluid, cs.coupling}.describe(k);
+  return k.manual_text();
+}
+
+}  // namespace bw::cfd

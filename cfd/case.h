@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// The case file as cfd reads it: [fluid] and the tables common to both programs.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cfd/amr/boundary.h"
+#include "cfd/amr/forest.h"
+#include "cfd/embed/body.h"
+#include "cfd/mix/medium.h"
+#include "cfd/regions.h"
+#include "common/app/cli.h"
+#include "coupling/case.h"
+
+namespace bw::cfd {
+
+/// A material's state in numbers; `place` is for errors found after reading.
+struct StateCase {
+  std::string material;
+  double density = 0, pressure = 0;
+  Vec3 velocity;
+  bool unburnt = false;
+  std::string place;
+  template <class K>
+  void describe(K& k) {
+    k.required("material", material, "name of a [[fluid.material]]");
+    k.optional("unburnt", unburnt, "explosive before detonation: its density is that of its JWL set");
+    if (!unburnt || k.is_manual()) {
+      k.optional("density", density, dim::density, "needed unless unburnt");
+      k.expect(density > 0, "density", "a positive density");
+    }
+    k.required("pressure", pressure, dim::pressure, "absolute pressure");
+    k.optional("velocity", velocity, dim::velocity, "velocity");
+    place = k.where("material");
+  }
+};
+
+struct RegionCase : StateCase {
+  RegionShape shape;
+  template <class K>
+  void describe(K& k) {
+    ShapeTable table{shape};
+    k.table("shape", table, "where; later regions paint over earlier ones");
+    shape = table.shape;
+    StateCase::describe(k);
+  }
+
+ private:
+  struct ShapeTable {
+    RegionShape shape;
+    template <class K>
+    void describe(K& k) {
+      k.pick("kind", shape, "geometry", true);
+    }
+  };
+};
+
+struct InflowCase : StateCase {
+  std::string side;
+  template <class K>
+  void describe(K& k) {
+    k.choice("side", side, {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"},
+             "the side of the domain, declared \"inflow\" in boundary");
+    StateCase::describe(k);
+  }
+};
+
+struct MaterialCase {
+  std::string name, library, place;
+  std::optional<EosChoice> eos;
+  template <class K>
+  void describe(K& k) {
+    k.required("name", name, "what regions call it");
+    k.optional("library", library, "one of the materials known by name, e.g. \"TNT\", \"air\"; see the README");
+    std::optional<EosTable> table;
+    k.table("eos", table, "equation of state, unless library is given");
+    if (table) eos = table->eos;
+    place = k.where("name");
+    if (!k.is_manual()) resolve(k);
+  }
+
+ private:
+  struct EosTable {
+    EosChoice eos;
+    template <class K>
+    void describe(K& k) {
+      k.pick("kind", eos, "kind of equation of state", true);
+    }
+  };
+  void resolve(Keys& k);
+};
+
+struct BurnCase {
+  std::string material, place;
+  std::vector<Vec3> points;
+  double start = 0, width = 3;
+  template <class K>
+  void describe(K& k) {
+    k.required("material", material, "the explosive: a material with a JWL equation of state");
+    k.required("points", points, dim::length, "detonation points, inside the explosive");
+    k.optional("start", start, dim::time, "time of detonation");
+    k.optional("width", width, dim::none, "of the front, in cells");
+    k.expect(!points.empty(), "points", "at least one point");
+    k.expect(start >= 0, "start", "a time, zero or positive");
+    k.expect(width >= 1, "width", "at least one cell");
+    place = k.where("points");
+  }
+};
+
+struct GaugeCase {
+  std::string name, place;
+  Vec3 position;
+  template <class K>
+  void describe(K& k) {
+    k.required("name", name, "names its columns in fluid_gauges.csv");
+    k.required("position", position, dim::length, "where, inside the domain; the value is that of its cell");
+    place = k.where("position");
+  }
+};
+
+struct LineCase {
+  std::string name, place;
+  Vec3 from, to;
+  template <class K>
+  void describe(K& k) {
+    k.required("name", name, "names its file, fluid_line_<name>.csv");
+    k.required("from", from, dim::length, "one end");
+    k.required("to", to, dim::length, "the other end; a row for each cell that the line passes through");
+    place = k.where("from");
+  }
+};
+
+struct SchemeCase {
+  double cfl = 0.9;
+  bool skip_quiet = true;
+  Floors floors;
+  template <class K>
+  void describe(K& k) {
+    k.optional("cfl", cfl, dim::none, "of sum_d (|v_d| + c) dt/h_d, at most 0.9");
+    k.optional("skip_quiet", skip_quiet, "leave out blocks in which nothing can happen; the results are the same bits");
+    k.optional("density_floor", floors.rho, dim::density, "a lower density is a failed step");
+    k.optional("pressure_floor", floors.p, dim::pressure, "a lower pressure is lifted, and counted");
+    k.expect(cfl > 0 && cfl <= 0.9, "cfl", "a number in (0, 0.9]");
+    k.expect(floors.rho > 0, "density_floor", "a positive density");
+    k.expect(floors.p > 0, "pressure_floor", "a positive pressure");
+  }
+};
+
+struct BoundaryCase {
+  std::array<std::string, 6> side{"wall", "wall", "wall", "wall", "wall", "wall"};
+  template <class K>
+  void describe(K& k) {
+    static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+    for (size_t i = 0; i < 6; ++i)
+      k.choice(names[i], side[i], {"wall", "outflow", "periodic", "inflow"},
+               "rigid smooth wall (or plane of symmetry), outflow, periodic (both sides), or inflow ([[fluid.inflow]])");
+    for (size_t d = 0; d < 3; ++d)
+      k.expect((side[2 * d] == "periodic") == (side[2 * d + 1] == "periodic"), names[2 * d + 1],
+               "\"periodic\" on both sides of a direction or on none");
+  }
+};
+
+struct FluidCase {
+  int threads = 0;
+  GridSize grid;
+  BoundaryCase boundary;
+  SchemeCase scheme;
+  std::vector<MaterialCase> material;
+  std::vector<RegionCase> region;
+  std::vector<InflowCase> inflow;
+  std::vector<BurnCase> burn;
+  std::vector<BodyCase> body;
+  std::vector<GaugeCase> gauge;
+  std::vector<LineCase> line;
+
+  void describe(Keys& k);
+  /// 0 or 1, the material called `name`; InputError at `place` otherwise.
+  int material_index(const std::string& name, const std::string& place) const;
+
+ private:
+  void check(Keys& k) const;
+};
+
+struct Case {
+  std::string file;
+  RunControl run;
+  FluidCase fluid;
+  coupling::CouplingCase coupling;
+  bool has_solid = false;  ///< the file has a table [solid]
+};
+
+/// Reads and checks what can be checked without a grid. InputError names file, line and key.
+Case read_case(const CommandLine& line);
+/// Every key, default and meaning.
+std::string case_manual();
+
+}  // namespace bw::cfd
