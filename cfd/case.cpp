@@ -56,6 +56,7 @@ void FluidCase::describe(Keys& k) {
   k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
   k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv");
   k.tables("line", line, "profiles along lines, at the times of the field files and at the end");
+  k.table("fields", fields, "restricts field files to a part of the domain; absent: all of it");
   if (!k.is_manual()) check(k);
   // the flow kernels carry stored energy with material 1
   if (material.size() == 2 && !burn.empty() && material[1].name == burn[0].material) std::swap(material[0], material[1]);

@@ -132,6 +132,16 @@ struct LineCase {
   }
 };
 
+/// Field files may be restricted to the blocks that touch a box: slices of large grids.
+struct FieldsCase {
+  Vec3 lower{-1e300, -1e300, -1e300}, upper{1e300, 1e300, 1e300};
+  template <class K>
+  void describe(K& k) {
+    k.required("lower", lower, dim::length, "lower corner of the box");
+    k.required("upper", upper, dim::length, "upper corner of the box; blocks of cells that it touches are written");
+  }
+};
+
 struct SchemeCase {
   double cfl = 0.9;
   bool skip_quiet = true;
@@ -174,6 +184,7 @@ struct FluidCase {
   std::vector<BodyCase> body;
   std::vector<GaugeCase> gauge;
   std::vector<LineCase> line;
+  std::optional<FieldsCase> fields;
 
   void describe(Keys& k);
   /// 0 or 1, the material called `name`; InputError at `place` otherwise.

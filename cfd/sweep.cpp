@@ -177,7 +177,7 @@ WallExchange Sweep::wall_exchange() const {
   return {values[0], {values[1], values[2], values[3]}, values[4], forest_.comm().sum(sum.links)};
 }
 
-void Sweep::refill(State& s, std::vector<int>& changed) {
+void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
   const Changes& changes = walls_->changes();
   const BlockShape& shape = forest_.shape();
   std::map<std::array<int, 3>, int> block_at;
@@ -186,9 +186,20 @@ void Sweep::refill(State& s, std::vector<int>& changed) {
     const auto found = block_at.find({c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]});
     return found == block_at.end() ? -1 : found->second;
   };
+  const auto place_in = [&](int b, const Index3& c) {
+    const Index3 first = forest_.first_cell(b);
+    return shape.at(c[2] - first[2], c[1] - first[1], c[0] - first[0]);
+  };
   std::set<int> touched;
+  const auto take = [&](int b, const Index3& c) {
+    for (int q = 0; q < Cons::count; ++q) swept.lost[q] += s.block(b, q)[place_in(b, c)] * shape.cell_volume();
+    ++swept.covered;
+    touched.insert(b);
+  };
   for (const Index3& c : changes.covered)
-    if (const int b = block_of(c); b >= 0) touched.insert(b);
+    if (const int b = block_of(c); b >= 0) take(b, c);
+  for (const FreshCell& f : changes.fresh)
+    if (const int b = block_of(f.cell); b >= 0 && f.held_fluid) take(b, f.cell);
   for (int layer = 1; layer <= changes.layers; ++layer) {
     std::map<int, std::vector<Index3>> cells;  // by block
     for (const FreshCell& f : changes.fresh)
@@ -214,9 +225,12 @@ void Sweep::refill(State& s, std::vector<int>& changed) {
     for (size_t i = 0; i < blocks.size(); ++i)
       for (size_t n = 0; n < fresh[i].size(); ++n) {
         if (!found[i][n]) continue;
-        const Index3 c = cells[blocks[i]][n], first = forest_.first_cell(blocks[i]);
-        for (int q = 0; q < Cons::count; ++q)
-          s.block(blocks[i], q)[shape.at(c[2] - first[2], c[1] - first[1], c[0] - first[0])] = fresh[i][n][size_t(q)];
+        const size_t cell = place_in(blocks[i], cells[blocks[i]][n]);
+        for (int q = 0; q < Cons::count; ++q) {
+          s.block(blocks[i], q)[cell] = fresh[i][n][size_t(q)];
+          swept.made[q] += fresh[i][n][size_t(q)] * shape.cell_volume();
+        }
+        ++swept.fresh;
       }
     walls_->accept(layer);
   }

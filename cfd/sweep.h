@@ -25,6 +25,12 @@ struct BadCell {
   int block = -1, cell = -1;
 };
 
+/// What moving walls took from the fluid and gave to it: cells covered and uncovered (DESIGN 5b: booked, not given back).
+struct Swept {
+  double lost[Cons::count] = {}, made[Cons::count] = {};  ///< integrals of U
+  int64_t covered = 0, fresh = 0;                         ///< cells
+};
+
 class Sweep {
  public:
   /// walls: nullptr if there are none; probes get their loads in advance().
@@ -52,7 +58,7 @@ class Sweep {
   /// Loads of all probes from the state as it is (advance() makes those of mid-step).
   void measure_loads(const State& s);
   /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks to inspect.
-  void refill(State& s, std::vector<int>& changed);
+  void refill(State& s, std::vector<int>& changed, Swept& swept);
 
  private:
   struct Space {

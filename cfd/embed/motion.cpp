@@ -104,7 +104,7 @@ Changes compare(const CutMap& before, CutMap& now, const std::vector<Index3>& sw
     if (ready.empty()) break;
     for (const Index3& c : ready) {
       now.drop_flag(c, cell_fresh);
-      r.fresh.push_back({c, layer});
+      r.fresh.push_back({c, layer, !before.blocked(c)});
     }
     r.layers = layer;
     waiting.swap(rest);
@@ -113,6 +113,7 @@ Changes compare(const CutMap& before, CutMap& now, const std::vector<Index3>& sw
   for (const Index3& c : waiting) {
     now.drop_flag(c, cell_fresh);
     now.set_flag(c, cell_sealed);
+    if (!before.blocked(c)) r.covered.push_back(c);
   }
   r.sealed = int64_t(waiting.size());
   return r;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Integrals over the open cells of the fluid, kept per block so that a step adds up only what it changed. Sums run in the
+// global order of blocks.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "cfd/build.h"
+
+namespace bw::cfd {
+
+struct FluidSums {
+  double U[Cons::count] = {};   ///< mass 1, mass 2 [kg], momentum [kg m/s], energy [J], volume of material 1 [m^3]
+  double volume = 0;            ///< m^3, open cells
+  double max_p = 0;             ///< Pa
+};
+
+class Books {
+ public:
+  explicit Books(const Model& m) : per_block_(size_t(m.forest.local_blocks())) {}
+  void refresh(const Model& m, const std::vector<int>& blocks);
+  /// Collective.
+  FluidSums sums(const Model& m) const;
+  Booked booked(const Model& m) const;
+
+  Swept swept;                ///< this rank's, since the start
+  Vec3 wall_impulse;          ///< N s, momentum that the fluid gave to walls through cut links
+  double wall_energy = 0;     ///< J, energy that left through cut links
+  double wall_mass = 0;       ///< kg, likewise: the defect of link walls
+  Vec3 face_impulse;          ///< N s, sum of -p A dt over the wet faces (absolute pressure)
+  double face_work = 0;       ///< J, likewise
+  Vec3 lip_impulse;           ///< N s, kept from the walls by the blending of lips
+
+ private:
+  std::vector<FluidSums> per_block_;
+};
+
+}  // namespace bw::cfd

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/app/log.h"
+#include "common/app/machine.h"
+#include "common/app/summary.h"
+#include "common/io/file.h"
+#include "common/parallel/loop.h"
+
+namespace bw::cfd {
+namespace {
+
+std::vector<History::Column> history_columns(const Case& cs) {
+  std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}};
+  for (const MaterialCase& m : cs.fluid.material) c.push_back({"mass " + m.name, "kg"});
+  c.push_back({"mass", "kg"});
+  for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
+  for (const char* name : {"energy", "stored_energy"}) c.push_back({name, "J"});
+  c.push_back({"volume", "m^3"});
+  c.push_back({"p_max", "Pa"});
+  c.push_back({"outflow mass", "kg"});
+  for (const char* name : {"outflow momentum x", "outflow momentum y", "outflow momentum z"}) c.push_back({name, "N s"});
+  c.push_back({"outflow energy", "J"});
+  for (const char* name : {"wall impulse x", "wall impulse y", "wall impulse z", "face impulse x", "face impulse y", "face impulse z",
+                           "lip impulse x", "lip impulse y", "lip impulse z"})
+    c.push_back({name, "N s"});
+  for (const char* name : {"wall energy", "face work"}) c.push_back({name, "J"});
+  c.push_back({"wall mass", "kg"});
+  for (const char* name : {"covered mass", "uncovered mass"}) c.push_back({name, "kg"});
+  for (const char* name : {"covered energy", "uncovered energy", "cleaned energy", "floor energy"}) c.push_back({name, "J"});
+  for (const char* name : {"cells covered", "cells fresh", "floors", "scaled", "first_order", "active_share"}) c.push_back({name, "1"});
+  return c;
+}
+
+std::vector<History::Column> gauge_columns(const Case& cs) {
+  std::vector<History::Column> c{{"t", "s"}};
+  for (const GaugeCase& g : cs.fluid.gauge) {
+    c.push_back({g.name + " pressure", "Pa"});
+    c.push_back({g.name + " impulse", "Pa s"});
+    c.push_back({g.name + " density", "kg/m^3"});
+    c.push_back({g.name + " speed", "m/s"});
+  }
+  return c;
+}
+
+}  // namespace
+
+double stored_energy(const Model& m) {
+  if (!m.setup.burn) return 0;
+  const Burn& burn = *m.setup.burn;
+  const BlockShape& s = m.forest.shape();
+  std::vector<double> part(size_t(m.forest.local_blocks()));
+  parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
+    if (m.state.info[size_t(b)].material == 2) return;
+    const Vec3 lower = m.forest.lower(int(b));
+    const Vec3 size{s.n[0] * s.h.x, s.n[1] * s.h.y, s.n[2] * s.h.z};
+    if (burn.phase(lower, lower + size, m.state.t, m.state.t) == Burn::Phase::after) return;
+    const std::vector<uint8_t> blocked = blocked_cells(m, int(b));
+    const double* arho = m.state.block(int(b), Cons::arho1);
+    double sum = 0;
+    for (int k = 0; k < s.n[2]; ++k)
+      for (int j = 0; j < s.n[1]; ++j)
+        for (int i = 0; i < s.n[0]; ++i) {
+          const size_t cell = s.at(k, j, i);
+          if (!(arho[cell] > 0) || (!blocked.empty() && blocked[cell])) continue;
+          sum += arho[cell] * burn.stored(lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z}, m.state.t);
+        }
+    part[size_t(b)] = sum * s.cell_volume();
+  });
+  double total = 0;
+  for (double p : m.forest.comm().size() == 1 ? part : m.forest.comm().gather_all(part)) total += p;
+  return total;
+}
+
+Output::Output(const Case& cs, const Model& m, double t_end)
+    : case_(cs),
+      t_end_(t_end),
+      root_(m.forest.comm().root()),
+      series_(cs.run.output.directory, "fluid"),
+      fields_(cs.run.output.fields_every, Schedule::Zero::never),
+      rows_(cs.run.output.history_every, Schedule::Zero::every_step),
+      progress_(t_end, cs.run.time.max_steps),
+      impulse_(cs.fluid.gauge.size(), 0.0),
+      p_gauge_(cs.fluid.gauge.size(), 0.0),
+      start_(std::chrono::steady_clock::now()) {
+  make_folder(cs.run.output.directory);
+  if (root_) {
+    history_.emplace(cs.run.output.directory + "/fluid_history.csv", history_columns(cs));
+    if (!cs.fluid.gauge.empty()) gauges_.emplace(cs.run.output.directory + "/fluid_gauges.csv", gauge_columns(cs));
+  }
+}
+
+Output::PointValues Output::at(const Model& m, const Vec3& x) const {
+  const Forest::Cell c = m.forest.find(x);
+  double values[6] = {};
+  if (c.block >= 0) {
+    double U[Cons::count], W[Prim::stored];
+    const size_t cell = m.forest.shape().at(c.k, c.j, c.i);
+    for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(c.block, q)[cell];
+    std::visit([&](const auto& pair) { pair.to_primitive(U, W, m.setup.medium.floors); }, m.setup.medium.mixture);
+    values[0] = U[0] + U[1], values[1] = W[Prim::p], values[2] = W[Prim::alpha1];
+    for (int d = 0; d < 3; ++d) values[3 + d] = W[Prim::v + d];
+  }
+  if (m.forest.comm().size() > 1) m.forest.comm().sum(values);
+  return {values[0], values[1], values[2], {values[3], values[4], values[5]}};
+}
+
+double Output::next_time(double t) const {
+  double next = t_end_;
+  for (const double other : {rows_.next_time(t), fields_.next_time(t)})  // multiples that differ by round-off are one time
+    if (other < next * (1 - 1e-12)) next = other;
+  return next;
+}
+
+void Output::write_due(const Model& m, const Books& books) {
+  write_gauges(m);
+  if (rows_.due(m.state.t)) write_row(m, books);
+  if (fields_.due(m.state.t)) {
+    write_fields(m);
+    write_lines(m);
+  }
+}
+
+/// Every step is integrated; rows are written with those of the history.
+void Output::write_gauges(const Model& m) {
+  if (case_.fluid.gauge.empty() || m.state.t == t_gauges_) return;
+  const double dt = t_gauges_ < 0 ? 0 : m.state.t - t_gauges_;
+  t_gauges_ = m.state.t;
+  std::vector<double> row{m.state.t};
+  for (size_t g = 0; g < case_.fluid.gauge.size(); ++g) {
+    const PointValues w = at(m, case_.fluid.gauge[g].position);
+    if (p_start_.size() <= g) p_start_.push_back(w.p), p_gauge_[g] = w.p;
+    impulse_[g] += 0.5 * dt * (w.p + p_gauge_[g] - 2 * p_start_[g]);
+    p_gauge_[g] = w.p;
+    for (double value : {w.p, impulse_[g], w.rho, norm(w.v)}) row.push_back(value);
+  }
+  if (gauges_) gauges_->row(row);
+}
+
+void Output::write_row(const Model& m, const Books& books) {
+  if (m.state.t == t_row_) return;
+  const FluidSums s = books.sums(m);
+  if (t_row_ < 0) first_ = s;
+  t_row_ = m.state.t;
+  last_ = s;
+  const Booked b = books.booked(m);
+  const auto out = [&](int q) {
+    double sum = 0;
+    for (int d = 0; d < 3; ++d) sum += b.side[2 * d + 1][q] - b.side[2 * d][q];
+    return sum;
+  };
+  double swept[8] = {books.swept.lost[0] + books.swept.lost[1], books.swept.made[0] + books.swept.made[1], books.swept.lost[Cons::rhoE],
+                     books.swept.made[Cons::rhoE], double(books.swept.covered), double(books.swept.fresh), 0, 0};
+  if (m.forest.comm().size() > 1) m.forest.comm().sum(swept);
+  std::vector<double> row{m.state.t, double(m.state.step), dt_};
+  for (size_t i = 0; i < case_.fluid.material.size(); ++i) row.push_back(s.U[i]);
+  row.push_back(s.U[0] + s.U[1]);
+  for (int d = 0; d < 3; ++d) row.push_back(s.U[Cons::mom + d]);
+  row.push_back(s.U[Cons::rhoE]);
+  row.push_back(stored_energy(m));
+  row.push_back(s.volume);
+  row.push_back(s.max_p);
+  row.push_back(out(0) + out(1));
+  for (int d = 0; d < 3; ++d) row.push_back(out(Cons::mom + d));
+  row.push_back(out(Cons::rhoE));
+  for (const Vec3& v : {books.wall_impulse, books.face_impulse, books.lip_impulse})
+    for (int d = 0; d < 3; ++d) row.push_back(v[d]);
+  for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept[0], swept[1], swept[2], swept[3], b.cleaned[Cons::rhoE], b.floor_energy,
+                   swept[4], swept[5], double(b.floors), double(b.scaled_cells), double(b.first_order), active_share_})
+    row.push_back(v);
+  if (history_) history_->row(row);
+}
+
+void Output::write_fields(const Model& m) {
+  if (m.state.t == t_fields_) return;
+  t_fields_ = m.state.t;
+  const BlockShape& s = m.forest.shape();
+  std::vector<int> blocks;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) {
+    bool wanted = true;
+    const Vec3 lower = m.forest.lower(b);
+    if (const auto& box = case_.fluid.fields)
+      for (int d = 0; d < 3; ++d)
+        wanted = wanted && lower[d] <= box->upper[d] && lower[d] + s.n[size_t(d)] * s.h[d] >= box->lower[d];
+    if (wanted) blocks.push_back(b);
+  }
+  const size_t cells = size_t(s.cells()), n = cells * blocks.size();
+  std::vector<double> rho(n), p(n), alpha(n);
+  std::vector<Vec3> v(n);
+  std::vector<uint8_t> covered(n, 0);
+  VtkLevel level;
+  level.spacing = s.h;
+  for (int b : blocks) {
+    const auto c = m.forest.first_cell(b);
+    level.boxes.push_back({c[0], c[0] + s.n[0] - 1, c[1], c[1] + s.n[1] - 1, c[2], c[2] + s.n[2] - 1});
+  }
+  parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
+    const int b = blocks[size_t(i)];
+    const std::vector<uint8_t> blocked = blocked_cells(m, b);
+    std::visit(
+        [&](const auto& pair) {
+          for (size_t c = 0; c < cells; ++c) {
+            double U[Cons::count], W[Prim::stored];
+            for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(b, q)[c];
+            pair.to_primitive(U, W, m.setup.medium.floors);
+            const size_t at = size_t(i) * cells + c;
+            rho[at] = U[0] + U[1], p[at] = W[Prim::p], alpha[at] = W[Prim::alpha1];
+            v[at] = {W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
+            covered[at] = blocked.empty() ? 0 : blocked[c];
+          }
+        },
+        m.setup.medium.mixture);
+  });
+  level.fields = {VtkField::scalars("density", rho), VtkField::scalars("pressure", p), VtkField::vectors("velocity", v)};
+  if (case_.fluid.material.size() == 2) level.fields.push_back(VtkField::scalars("alpha_" + case_.fluid.material[0].name, alpha));
+  if (m.walls) level.fields.push_back({"covered", 1, std::span<const uint8_t>(covered)});
+  for (VtkField& f : level.fields) f.exact = case_.run.output.exact;
+  write_vtkhdf(series_.next_path(), m.forest.size().lower, {level}, m.forest.comm());
+  series_.add(m.state.t, m.forest.comm());
+}
+
+void Output::write_lines(const Model& m) {
+  for (const LineCase& line : case_.fluid.line) {
+    const BlockShape& s = m.forest.shape();
+    const Vec3 along = line.to - line.from;
+    double cells = 0;
+    for (int d = 0; d < 3; ++d)
+      if (s.used[size_t(d)]) cells = std::max(cells, std::abs(along[d]) / s.h[d]);
+    const int n = std::max(1, int(std::lround(cells)));
+    std::optional<History> table;
+    std::vector<History::Column> columns{{"x", "m"}, {"y", "m"}, {"z", "m"}, {"density", "kg/m^3"}, {"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"},
+                                         {"pressure", "Pa"}, {"alpha1", "1"}, {"t", "s"}};
+    if (root_) table.emplace(fmt::format("{}/fluid_line_{}.csv", case_.run.output.directory, line.name), columns);
+    for (int i = 0; i < n; ++i) {
+      const Vec3 x = line.from + ((i + 0.5) / n) * along;
+      const PointValues w = at(m, x);
+      if (table) table->row({x.x, x.y, x.z, w.rho, w.v.x, w.v.y, w.v.z, w.p, w.alpha1, m.state.t});
+    }
+  }
+}
+
+double Output::updates(const Model& m) const {
+  double n = 0;
+  for (const Booked& b : m.state.booked) n += double(b.updates);
+  return m.forest.comm().sum(n);
+}
+
+void Output::tick(const Model& m, double dt, size_t active_blocks) {
+  dt_ = dt;
+  active_share_ = m.forest.comm().sum(double(active_blocks)) / double(m.forest.global_blocks());
+  progress_.tick(m.state.step, m.state.t, [&] {
+    double n = 0;
+    for (const Booked& b : m.state.booked) n += double(b.updates);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return fmt::format("dt {:.3g} s, {:.0f} % active, {:.2f} Mcells/s", dt, 100 * active_share_, 1e-6 * n / seconds);
+  });
+}
+
+void Output::finish(const Model& m, const Books& books, const std::string& status, const std::string& message) {
+  progress_.finish();
+  if (status != "failed") {
+    write_gauges(m);
+    write_row(m, books);
+    if (case_.run.output.fields_every > 0) write_fields(m);
+    write_lines(m);
+  }
+  Summary s;
+  s.case_file = case_.file, s.title = case_.run.title, s.status = status, s.message = message;
+  s.ranks = m.forest.comm().size(), s.threads = thread_count();
+  s.steps = m.state.step, s.t = m.state.t;
+  const double n = status == "failed" ? 0 : updates(m);
+  const double flow = timers().seconds("flow");
+  s.rates = {{"cell_updates_per_second", n / std::max(flow, 1e-9)}, {"cell_updates", n}};
+  s.masses = {{"start", first_.U[0] + first_.U[1]}, {"end", last_.U[0] + last_.U[1]}, {"explosive", m.explosive_mass},
+              {"cavity_volume_times_density", m.cavity_mass}, {"covered", books.swept.lost[0] + books.swept.lost[1]},
+              {"uncovered", books.swept.made[0] + books.swept.made[1]}, {"through_walls", books.wall_mass}};
+  s.energies = {{"start", first_.U[Cons::rhoE]}, {"end", last_.U[Cons::rhoE]}, {"chemical", m.setup.burn ? m.setup.burn->q * m.explosive_mass : 0},
+                {"wall", books.wall_energy}, {"face_work", books.face_work}, {"covered", books.swept.lost[Cons::rhoE]},
+                {"uncovered", books.swept.made[Cons::rhoE]}};
+  s.momenta = {{"x", last_.U[Cons::mom]}, {"y", last_.U[Cons::mom_y]}, {"z", last_.U[Cons::mom_z]}};
+  const auto add = [&](const char* name, const Vec3& v) {
+    for (int d = 0; d < 3; ++d) s.momenta.push_back({fmt::format("{} {}", name, "xyz"[d]), v[d]});
+  };
+  add("wall impulse", books.wall_impulse);
+  add("face impulse", books.face_impulse);
+  if (status != "failed") {
+    const Booked b = books.booked(m);
+    s.counts = {{"floors", double(b.floors)}, {"scaled_cells", double(b.scaled_cells)}, {"first_order_cells", double(b.first_order)}};
+  }
+  s.counts.push_back({"cells", double(m.forest.global_cells())});
+  s.counts.push_back({"blocks", double(m.forest.global_blocks())});
+  s.values = {{"p_max", last_.max_p}, {"active_share", active_share_}};
+  if (root_) {
+    s.write(case_.run.output.directory + "/fluid_summary.json", timers());
+    say("{}: step {}, t = {:.6g} s, {:.2f} Mcell-updates/s in the flow", status, m.state.step, m.state.t, 1e-6 * n / std::max(flow, 1e-9));
+  }
+}
+
+}  // namespace bw::cfd

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cfd/output.h"
+#include "cfd/step.h"
+#include "common/app/log.h"
+#include "common/app/timers.h"
+#include "common/app/version.h"
+#include "common/parallel/loop.h"
+#include "coupling/fluid_side.h"
+#include "coupling/wall_path.h"
+
+namespace bw::cfd {
+namespace {
+
+class BodyMotion final : public WallMotion {
+ public:
+  explicit BodyMotion(Bodies& bodies) : bodies_(bodies), surface_(bodies.at(0)) {}
+  void go_to(double t) { t_ = t, surface_ = bodies_.at(t); }
+  const coupling::WetSurface& surface() const override { return surface_; }
+  std::vector<Vec3> x() const override { return surface_.x; }
+  std::vector<Vec3> velocity(double dt) const override {
+    std::vector<Vec3> v = bodies_.positions(t_ + dt);
+    for (size_t i = 0; i < v.size(); ++i) v[i] = (v[i] - surface_.x[i]) / dt;
+    return v;
+  }
+  std::vector<Vec3> x_end(double dt) const override { return bodies_.positions(t_ + dt); }
+
+ private:
+  Bodies& bodies_;
+  coupling::WetSurface surface_;
+  double t_ = 0;
+};
+
+class SolidMotion final : public WallMotion {
+ public:
+  explicit SolidMotion(const coupling::FluidSide& side) : side_(side) {}
+  void begin() { path_.begin(side_.window(), side_.surface()); }
+  void end(double dt) { path_.end(dt); }
+  const coupling::WetSurface& surface() const override { return side_.surface(); }
+  std::vector<Vec3> x() const override { return path_.x(); }
+  std::vector<Vec3> velocity(double dt) const override { return path_.velocity(dt); }
+  std::vector<Vec3> x_end(double dt) const override { return path_.x_end(dt); }
+
+ private:
+  const coupling::FluidSide& side_;
+  coupling::WallPath path_;
+};
+
+double courant_step(const Case& cs, const Model& m, const Sweep& sweep) {
+  const double rate = sweep.max_rate(m.state);
+  return rate > 0 ? cs.fluid.scheme.cfl / rate : 1e300;
+}
+/// The step towards `next`: whole, or in equal parts, so that no sliver is left.
+double step_towards(double t, double next, double dt) {
+  const double left = next - t;
+  return left / std::ceil(left / dt * (1 - 1e-12));
+}
+
+void open_model(Model& m, const Case& cs, Books& books) {
+  paint(m, cs);
+  std::vector<int> all;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) all.push_back(b);
+  books.refresh(m, all);
+  const FluidSums s = books.sums(m);
+  if (m.setup.burn) m.explosive_mass = s.U[Cons::arho1];
+  say("{} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} m in {} blocks of {} x {} x {}, {} threads", m.forest.size().cells[0],
+      m.forest.size().cells[1], m.forest.size().cells[2], m.forest.shape().h.x, m.forest.shape().h.y, m.forest.shape().h.z,
+      m.forest.global_blocks(), m.forest.shape().n[0], m.forest.shape().n[1], m.forest.shape().n[2], thread_count());
+  if (m.explosive_mass > 0) say("{:.6g} kg of {} ({:.6g} J to be released)", m.explosive_mass, m.setup.medium.names[0], m.setup.burn->q * m.explosive_mass);
+}
+
+int run_alone(const Case& cs, Model& m) {
+  std::optional<BodyMotion> motion;
+  if (!cs.fluid.body.empty()) {
+    const BlockShape& s = m.forest.shape();
+    double h = 1e300;
+    for (int d = 0; d < 3; ++d)
+      if (s.used[size_t(d)]) h = std::min(h, s.h[d]);
+    m.bodies.emplace(cs.fluid.body, ShapeSetting{cs.fluid.grid.lower, cs.fluid.grid.upper, h});
+    motion.emplace(*m.bodies);
+    add_walls(m, cs.coupling.reference_pressure);
+    m.walls->begin(motion->surface(), motion->x(), std::vector<Vec3>(motion->x().size()));
+  }
+  Books books(m);
+  open_model(m, cs, books);
+  Sweep sweep(m.forest, m.setup, m.walls ? &*m.walls : nullptr);
+  Output out(cs, m, cs.run.time.end);
+  out.write_due(m, books);
+  const double t_end = cs.run.time.end;
+  const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
+  try {
+    while (m.state.t < t_end && steps_left()) {
+      const double t0 = m.state.t, next = out.next_time(t0), wanted = step_towards(t0, next, courant_step(cs, m, sweep));
+      if (motion) motion->go_to(t0);
+      coupling::Loads loads;
+      const double dt = step(m, sweep, books, wanted, motion ? &*motion : nullptr, true, &loads);
+      m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
+      out.write_due(m, books);
+      out.tick(m, dt, sweep.active().size());
+    }
+  } catch (const PhysicsError& e) {
+    out.finish(m, books, "failed", e.what());
+    throw;
+  }
+  out.finish(m, books, m.state.t < t_end ? "max_steps" : "finished", "");
+  return exit_ok;
+}
+
+coupling::FluidTotals totals_of(const Model& m, const Books& books) {
+  coupling::FluidTotals t;
+  const FluidSums s = books.sums(m);
+  t.mass = s.U[0] + s.U[1];
+  t.energy = s.U[Cons::rhoE];
+  t.momentum = {s.U[Cons::mom], s.U[Cons::mom_y], s.U[Cons::mom_z]};
+  t.mass_covered = books.swept.lost[0] + books.swept.lost[1];
+  t.mass_uncovered = books.swept.made[0] + books.swept.made[1];
+  t.energy_covered = books.swept.lost[Cons::rhoE];
+  t.energy_uncovered = books.swept.made[Cons::rhoE];
+  return t;
+}
+
+/// The fluid leads: it takes one step towards the solid's limit and tells the solid how far it came.
+int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
+  if (!cs.fluid.body.empty()) throw InputError(fmt::format("{}: fluid.body: bodies are for runs of cfd alone; the solid program gives the surface here", cs.file));
+  coupling::Hello hello;
+  hello.program = "cfd", hello.version = version();
+  hello.t_end = cs.run.time.end;
+  hello.lower = cs.fluid.grid.lower, hello.upper = cs.fluid.grid.upper;
+  for (int d = 0; d < 3; ++d)
+    if (cs.fluid.grid.cells[size_t(d)] == 1) hello.lower[d] = -1e300, hello.upper[d] = 1e300;  // the flow is the same all along
+  coupling::FluidSide side(channel, cs.coupling, hello);
+  SolidMotion motion(side);
+  add_walls(m, cs.coupling.reference_pressure);
+  Books books(m);
+  std::optional<Sweep> sweep;
+  std::optional<Output> out;
+  const auto receive = [&] {
+    Timed timed("waiting for the solid", Timed::waiting);
+    return side.receive();
+  };
+  try {
+    while (receive()) {
+      motion.begin();
+      if (!out) {
+        m.walls->begin(side.surface(), motion.x(), side.surface().v);
+        open_model(m, cs, books);
+        sweep.emplace(m.forest, m.setup, &*m.walls);
+        out.emplace(cs, m, side.t_end());
+        out->write_due(m, books);
+      }
+      const coupling::Window window = side.window();
+      m.state.t = window.t0;
+      const double next = std::min(window.t1_max, out->next_time(window.t0));
+      const double wanted = step_towards(window.t0, next, courant_step(cs, m, *sweep));
+      coupling::Loads loads;
+      const double dt = step(m, *sweep, books, wanted, &motion, window.mean_pressure, &loads);
+      loads.t1 = dt == wanted && wanted >= next - window.t0 ? next : window.t0 + dt;
+      const int64_t dry = loads.totals.dry_faces;
+      const double dry_area = loads.totals.dry_area;
+      loads.totals = totals_of(m, books);
+      const coupling::FluidTotals at_faces = coupling::wall_totals(side.surface(), loads, motion.velocity(dt), window);
+      loads.totals.impulse = at_faces.impulse, loads.totals.moment = at_faces.moment;
+      loads.totals.work = at_faces.work, loads.totals.swept = at_faces.swept;
+      loads.totals.dry_faces = dry, loads.totals.dry_area = dry_area;
+      m.state.t = loads.t1;
+      side.send(loads);
+      motion.end(dt);
+      out->write_due(m, books);
+      out->tick(m, dt, sweep->active().size());
+    }
+  } catch (const PhysicsError& e) {
+    if (out) out->finish(m, books, "failed", e.what());
+    throw;
+  }
+  if (out) out->finish(m, books, "finished", "");
+  return exit_ok;
+}
+
+}  // namespace
+
+int run(const Case& cs, const Comm& comm, coupling::Channel* channel) {
+  Model m(comm, cs);
+  return channel ? run_coupled(cs, m, *channel) : run_alone(cs, m);
+}
+
+void check(const Case& cs, const Comm& comm) {
+  Model m(comm, cs);
+  double fastest = 0;
+  for (const EosChoice& eos : m.setup.medium.eos)
+    if (m.setup.burn && std::holds_alternative<Jwl>(eos)) fastest = std::max(fastest, 2 * m.setup.burn->c_CJ);
+  for (const RegionCase& r : cs.fluid.region) {
+    const auto& eos = m.setup.medium.eos[cs.fluid.material_index(r.material, r.place)];
+    std::visit(
+        [&](const auto& e) {
+          double rho = r.density;
+          if constexpr (requires { e.rho0; }) rho = r.unburnt ? e.rho0 : rho;
+          fastest = std::max(fastest, sound_speed(e, rho, r.pressure) + norm(r.velocity));
+        },
+        eos);
+  }
+  double rate = 0;
+  for (int d = 0; d < 3; ++d)
+    if (m.forest.shape().used[size_t(d)]) rate += fastest / m.forest.shape().h[d];
+  const double steps = rate > 0 ? cs.run.time.end * rate / cs.fluid.scheme.cfl : 0;
+  const double cells = double(m.forest.global_cells());
+  constexpr double bytes_a_cell = 2 * 8 * Cons::count + 1, cells_a_second = 6e6;
+  say("{}: the case is sound", cs.file);
+  say("about {:.0f} steps of {:.3g} s, {:.2f} GB, at most {:.1f} min on {} threads (blocks at rest cost nothing)", steps, cs.run.time.end / std::max(steps, 1.0),
+      1e-9 * cells * bytes_a_cell, steps * cells / (cells_a_second * thread_count()) / 60, thread_count());
+}
+
+}  // namespace bw::cfd
