@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "cfd/embed/cavity.h"
 #include "cfd/eos/library.h"

@@ -62,7 +62,7 @@ void book_walls(Model& m, Sweep& sweep, Books& books, double dt, const coupling:
   books.wall_impulse += e.momentum;
   books.wall_energy += e.energy;
   books.wall_mass += e.mass;
-  const coupling::FluidTotals t = coupling::wall_totals(m.walls->surface(), loads, v, {.t0 = 0, .t1_max = dt}, dt);
+  const coupling::FluidTotals t = coupling::wall_totals(m.walls->surface(), loads, v, coupling::Window{.t0 = 0, .t1_max = dt});
   books.face_impulse += t.impulse;
   books.face_work += t.work;
   books.lip_impulse += dt * m.walls->lip_force();
