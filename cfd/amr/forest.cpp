@@ -31,10 +31,11 @@ TreePlace place_of_tree(const p8est_connectivity_t* c, p4est_topidx_t tree) {
   return {int(std::lround(corner[0])), int(std::lround(corner[1])), int(std::lround(corner[2]))};
 }
 
-/// libsc and p4est want to be told once per process, and to leave signals alone.
-void start_p4est() {
-  static const bool started = [] {
-    sc_init(MPI_COMM_WORLD, 0, 0, nullptr, SC_LP_ERROR);
+/// libsc and p4est want to be told once per process, and to leave signals alone. Collective over comm: the world may hold another
+/// program, which would never come.
+void start_p4est(const Comm& comm) {
+  static const bool started = [&] {
+    sc_init(comm.raw(), 0, 0, nullptr, SC_LP_ERROR);
     p4est_init(nullptr, SC_LP_ERROR);
     return true;
   }();
@@ -72,7 +73,7 @@ Forest::Forest(const Comm& comm, const GridSize& size) : comm_(comm), size_(size
     shape_.h[d] = (size.upper[d] - size.lower[d]) / size.cells[d];
     blocks_[d] = size.cells[d] / shape_.n[d];
   }
-  start_p4est();
+  start_p4est(comm);
   trees_->connectivity = p8est_connectivity_new_brick(blocks_[0], blocks_[1], blocks_[2], size.periodic[0],
                                                       size.periodic[1], size.periodic[2]);
   trees_->forest = p8est_new_ext(comm.raw(), trees_->connectivity, 0, 0, 1, 0, nullptr, nullptr);
