@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "common/math/random.h"
 #include "csd/mesh/faces.h"
@@ -60,11 +61,26 @@ void perturb_nodes(Mesh& mesh, double fraction, uint64_t seed) {
       shortest[b] = std::min(shortest[b], length);
     }
   for (const NodeId n : nodes_of_faces(mesh, boundary_faces(mesh))) shortest[n] = 0;
+  const Field<Vec3, NodeId> still = mesh.X;
+  Field<Vec3, NodeId> shift(size_t(mesh.node_count()));
   for (int32_t i = 0; i < mesh.node_count(); ++i) {
     const NodeId n(i);
-    const double reach = fraction * shortest[n];
     for (int d = 0; d < 3; ++d)
-      mesh.X[n][d] += reach * (2 * uniform01(seed, uint64_t(mesh.node_gid[n]), uint64_t(d)) - 1);
+      shift[n][d] = fraction * shortest[n] * (2 * uniform01(seed, uint64_t(mesh.node_gid[n]), uint64_t(d)) - 1);
+  }
+  // where an element would lose more than half its scaled Jacobian, its nodes go half as far
+  for (bool is_good = false; !is_good;) {
+    is_good = true;
+    for (int32_t i = 0; i < mesh.node_count(); ++i) mesh.X[NodeId(i)] = still[NodeId(i)] + shift[NodeId(i)];
+    std::set<int32_t> too_far;
+    for (const auto& h : mesh.hex)
+      if (const double before = scaled_jacobian(corners(h, still));
+          scaled_jacobian(corners(h, mesh.X)) < std::min(before, 0.5 * before))
+        too_far.insert(h.begin(), h.end());
+    for (const int32_t n : too_far) {
+      shift[NodeId(n)] = 0.5 * shift[NodeId(n)];
+      is_good = false;
+    }
   }
 }
 
@@ -76,9 +92,16 @@ Mesh make_mesh(const MeshInput& input, MeshQuality& quality) {
     if (input.turn != 0) x = turned(x, axis, input.turn);
     x += input.move;
   }
-  if (input.perturb > 0) perturb_nodes(mesh, input.perturb, uint64_t(input.seed));
   const bool is_file = std::holds_alternative<Gmsh>(input.kind);
-  quality = check_mesh(mesh, is_file ? std::get<Gmsh>(input.kind).file : input.place, input.may_have_pieces);
+  const std::string where = is_file ? std::get<Gmsh>(input.kind).file : input.place;
+  quality = check_mesh(mesh, where, input.may_have_pieces);
+  if (input.perturb > 0) {
+    perturb_nodes(mesh, input.perturb, uint64_t(input.seed));
+    const MeshQuality before = quality;
+    quality = check_mesh(mesh, where, input.may_have_pieces);
+    quality.mended = before.mended;
+    quality.notes.insert(quality.notes.begin(), before.notes.begin(), before.notes.end());
+  }
   if (!input.sets.empty()) {
     const auto boundary = boundary_faces(mesh);
     for (const RegionSet& set : input.sets) add_region(mesh, set, boundary);

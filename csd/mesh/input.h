@@ -61,8 +61,8 @@ Mesh make_mesh(const MeshInput& input, MeshQuality& quality);
 /// "b.s", and "s" holds the sets of that name of all bodies; element set "b": all elements of the body.
 Mesh merge(std::vector<Mesh> bodies, const std::vector<std::string>& names);
 
-/// Moves nodes off the boundary at random by up to `fraction` of their shortest edge in each direction; the same for
-/// any order of nodes.
+/// Moves nodes off the boundary at random by up to `fraction` of their shortest edge in each direction, less where an
+/// element would lose more than half its scaled Jacobian. A function of seed and gids.
 void perturb_nodes(Mesh& mesh, double fraction, uint64_t seed);
 
 }  // namespace bw::csd

@@ -215,6 +215,20 @@ TEST(MeshKinds, WeaponThroughTetrahedra) {
   EXPECT_EQ(Topology(m.mesh).find_fault(m.mesh), "");
 }
 
+// VALIDATION T1: the thick tube through tetrahedra, its inner nodes shaken by a quarter of their shortest edge
+TEST(MeshKinds, ShakenSplitTubeIsValid) {
+  const Made m = make(
+      "kind='tube'\ninner_radius=0.125\nouter_radius=0.137\nlength=0.024\naround=128\nthrough=2\nalong=4\nsector='"
+      "quarter'\nsplit=true\n"
+      "perturb=0.25");
+  std::printf("tube split and shaken: %s\n", summary(m.quality).c_str());
+  EXPECT_GT(m.quality.min_scaled_jacobian, 0.05);
+  const Made still = make(
+      "kind='tube'\ninner_radius=0.125\nouter_radius=0.137\nlength=0.024\naround=128\nthrough=2\nalong=4\nsector='"
+      "quarter'\nsplit=true");
+  EXPECT_NEAR(m.quality.volume, still.quality.volume, 1e-13 * m.quality.volume);  // the boundary stays
+}
+
 TEST(MeshKinds, QuartersLieExactlyOnTheirPlanes) {
   const Made m = make("kind='cylinder'\nradius=1\nlength=2\nacross=6\nalong=2\nsector='quarter'");
   for (const NodeId n : m.mesh.node_sets.at("cut_x")) EXPECT_EQ(m.mesh.X[n].x, 0);
