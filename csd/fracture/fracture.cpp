@@ -14,6 +14,7 @@ namespace bw::csd {
 Fracture::Fracture(const FractureInput& input, const Mesh& mesh)
     : input_(input),
       weight_(size_t(mesh.elem_count()), 1.0),
+      opened_by_(size_t(mesh.elem_count()), 0),
       seen_step_(size_t(mesh.elem_count()), 0),
       done_step_(size_t(mesh.elem_count()), 0) {
   if (!input.is_weighted) return;
@@ -64,7 +65,8 @@ std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& 
   const auto look = [&](ElemId e) {
     if (seen_step_[e] == step_) return;
     seen_step_[e] = step_;
-    if (!is_loose(e) && selection(mesh, topology, fail, e) >= 1) broken.push_back(e);
+    if (opened_by_[e] < input_.faces_per_element && !is_loose(e) && selection(mesh, topology, fail, e) >= 1)
+      broken.push_back(e);
   };
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {
     if (fail[size_t(i)] < 1) continue;
@@ -97,7 +99,7 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
   };
   std::priority_queue<Candidate> worst;
   const auto consider = [&](ElemId e) {
-    if (done_step_[e] == step_) return;
+    if (done_step_[e] == step_ || opened_by_[e] >= input_.faces_per_element) return;
     if (const double value = selection(mesh, topology, fail, e); value >= 1) worst.push({value, mesh.elem_gid[e], e});
   };
   // most of the broken elements wait: they are found in parallel and are done with, for within a step stresses stay and
@@ -129,7 +131,9 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
       continue;
     }
     const size_t first = splits.size();
-    if (detach_face(mesh, topology, {e, side}, splits, changed) > 0) ++opened_;
+    if (detach_face(mesh, topology, {e, side}, splits, changed) == 0) continue;
+    ++opened_;
+    ++opened_by_[e];
     if (!input_.is_smoothed) continue;
     around.clear();
     for (size_t i = first; i < splits.size(); ++i)

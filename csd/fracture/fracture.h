@@ -23,11 +23,17 @@ struct FractureInput {
     }
   } criterion;
   bool is_smoothed = true, is_weighted = true;
+  int faces_per_element = 6;
   template <class K>
   void describe(K& k) {
     k.table("criterion", criterion, "failure value of an element; 1 or more is broken");
     k.optional("smoothing", is_smoothed, "select by the mean over an element's nodes of the mean over their elements");
     k.optional("weighted", is_weighted, "that nodal mean weights elements by volume; false: plain mean");
+    k.optional(
+        "faces_per_element", faces_per_element,
+        "faces that a broken element may open in all, one in a step; 6: no limit, which in the end parts all broken "
+        "elements; 1 leaves strips");
+    k.expect(faces_per_element >= 1 && faces_per_element <= 6, "faces_per_element", "1 to 6");
   }
 };
 
@@ -60,6 +66,7 @@ class Fracture {
 
   FractureInput input_;
   Field<double, ElemId> weight_;
+  Field<int8_t, ElemId> opened_by_;  // faces that an element has opened
   // of the present step: nodal means that are known, elements seen or done
   int64_t step_ = 0;
   Field<double, NodeId> mean_;

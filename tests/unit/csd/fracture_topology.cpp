@@ -245,6 +245,26 @@ TEST(FractureTopology, HingesAreSplit) {
   EXPECT_EQ(pieces(m), 4);
 }
 
+TEST(FractureTopology, FacesOfAnElementCanBeLimited) {
+  for (const int limit : {1, 2, 6}) {
+    Mesh m = box(1, 1, 5);
+    Topology t(m);
+    FractureInput input;
+    input.faces_per_element = limit;
+    input.is_smoothed = false;
+    Fracture fracture(input, m);
+    std::vector<double> fail(5, 0.0);
+    fail[2] = 1.5;
+    const auto sigma = [](ElemId) { return Sym3{0, 0, 1e9, 0, 0, 0}; };
+    std::vector<NodeSplit> splits;
+    std::vector<ElemId> changed;
+    for (int step = 0; step < 4; ++step)
+      fracture.advance(m, t, std::vector<Vec3>(m.X.begin(), m.X.end()), sigma, fail, splits, changed);
+    EXPECT_EQ(fracture.opened(), std::min(limit, 2));
+    EXPECT_EQ(pieces(m), 1 + std::min(limit, 2));
+  }
+}
+
 TEST(FractureTopology, SmoothingIsTheMeanOfNodalMeans) {
   Mesh m = box(2, 1, 1);
   const Topology t(m);
