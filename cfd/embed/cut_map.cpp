@@ -12,6 +12,7 @@ void CutMap::clear(const Lattice& lattice) {
   flags_.clear();
   for (auto& l : link_) l.clear();
   links_.clear();
+  may_have_orphans_ = false;
 }
 
 size_t CutMap::make_tile(const Index3& c) {

@@ -44,6 +44,21 @@ class CutMap {
     const int32_t t = tile_[tile_of(c)];
     return t == all_open ? 0 : t == all_covered ? uint8_t(cell_covered) : flags_[size_t(t) * cells + place(c)];
   }
+  /// Where index i of direction d is kept: a cell's place is the sum over its directions. For loops over many cells.
+  struct Place {
+    size_t tile = 0, cell = 0;
+  };
+  Place place_along(int d, int i) const {
+    Index3 c{-1, -1, -1};
+    c[size_t(d)] = i;
+    return {tile_of(c), place(c)};
+  }
+  uint8_t flags_at(size_t tile, size_t cell) const {
+    const int32_t t = tile_[tile];
+    return t >= 0 ? flags_[size_t(t) * cells + cell] : t == all_covered ? uint8_t(cell_covered) : uint8_t(0);
+  }
+  /// May a cell in metal border on an open one without a cut link? (Open surfaces, sealed cells.)
+  bool may_have_orphans() const { return may_have_orphans_; }
   bool blocked(const Index3& c) const { return flags(c) & cell_blocked; }
   bool is_cut(const Index3& c, int d) const { return flags(c) & (cell_cut << d); }
   /// The link from c to c + e_d; nullptr if it is not cut.
@@ -60,6 +75,7 @@ class CutMap {
 
   // --- building (scan.cpp, motion.cpp)
   // --------------------------------------------------------------------------------------
+  void note_orphans() { may_have_orphans_ = true; }
   void add_link(const Index3& c, int d, const CutLink& link);
   /// Cells [first, last] of the line through c in direction d are in metal. Call after all links were added.
   void cover(Index3 c, int d, int first, int last);
@@ -106,6 +122,7 @@ class CutMap {
   std::vector<uint8_t> flags_;    ///< [made tile][cell]
   std::vector<int32_t> link_[3];  ///< [made tile][cell] into links_; valid where the flag is set
   std::vector<CutLink> links_;
+  bool may_have_orphans_ = false;
 };
 
 }  // namespace bw::cfd

@@ -116,6 +116,7 @@ Changes compare(const CutMap& before, CutMap& now, const std::vector<Index3>& sw
     if (!before.blocked(c)) r.covered.push_back(c);
   }
   r.sealed = int64_t(waiting.size());
+  if (r.sealed > 0) now.note_orphans();
   return r;
 }
 

@@ -64,6 +64,17 @@ void PatchCuts::gather_links(const CutMap& map, int d, const Index3& c, int at) 
   set_wall(at + step_[d], d, 0, above);
 }
 
+/// No face between metal and fluid: an open surface ends here, or a cell is sealed. A resting wall half way.
+void PatchCuts::close_orphan(int d, int c) {
+  const int u = c + step_[d];
+  if (blocked(c) == blocked(u) || cut(c, d, 1)) return;
+  Vec3 n;
+  n[d] = blocked(c) ? 1 : -1;
+  set_wall(c, d, 1, {0.5, n, {}, -1});
+  set_wall(u, d, 0, {0.5, n, {}, -1});
+  ++orphans_;
+}
+
 void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3& origin) {
   rules_ = rules;
   origin_ = origin;
@@ -99,34 +110,42 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   all_blocked_ = false;
   if (!any_) return;
 
-  for (int k = -g_[2]; k < e_[2] - g_[2]; ++k)
-    for (int j = -g_[1]; j < e_[1] - g_[1]; ++j)
-      for (int i = -g_[0]; i < e_[0] - g_[0]; ++i) {
-        const uint8_t f = map.flags({source_[0][size_t(i + g_[0])].index, source_[1][size_t(j + g_[1])].index,
-                                     source_[2][size_t(k + g_[2])].index});
-        raw_[size_t(at(k, j, i))] = f;
-        bits_[size_t(at(k, j, i))] = uint16_t((f & cell_blocked ? is_blocked : 0) | (f & cell_fresh ? is_fresh : 0));
+  std::array<std::vector<CutMap::Place>, 3> place;
+  for (int d = 0; d < 3; ++d)
+    for (const Source& source : source_[d]) place[size_t(d)].push_back(map.place_along(d, source.index));
+  cut_cells_.clear();
+  for (int k = 0; k < e_[2]; ++k)
+    for (int j = 0; j < e_[1]; ++j) {
+      const CutMap::Place &z = place[2][size_t(k)], &y = place[1][size_t(j)];
+      const size_t tile = z.tile + y.tile, cell = z.cell + y.cell;
+      const int first = (k * e_[1] + j) * e_[0];
+      for (int i = 0; i < e_[0]; ++i) {
+        const CutMap::Place& x = place[0][size_t(i)];
+        const uint8_t f = map.flags_at(tile + x.tile, cell + x.cell);
+        raw_[size_t(first + i)] = f;
+        bits_[size_t(first + i)] = uint16_t((f & cell_blocked ? is_blocked : 0) | (f & cell_fresh ? is_fresh : 0));
+        if (f >= cell_cut) cut_cells_.push_back({i - g_[0], j - g_[1], k - g_[2]});
       }
-  for (int d = 0; d < 3; ++d) {
-    if (!shape_.used[size_t(d)]) continue;
-    Index3 end{e_[0] - g_[0], e_[1] - g_[1], e_[2] - g_[2]};
-    --end[size_t(d)];
-    for (int k = -g_[2]; k < end[2]; ++k)
-      for (int j = -g_[1]; j < end[1]; ++j)
-        for (int i = -g_[0]; i < end[0]; ++i) {
-          const int c = at(k, j, i), u = c + step_[d];
-          const int low = origin[size_t(d)] + Index3{i, j, k}[size_t(d)];
-          const bool within = low >= 0 && low < map.lattice().n[size_t(d)] - 1;
-          if (!within || raw_[size_t(c)] & (cell_cut << d)) gather_links(map, d, {i, j, k}, c);
-          if (blocked(c) != blocked(u) && !cut(c, d, 1)) {
-            // no face between metal and fluid: an open surface ends here, or a cell is sealed; a resting wall half way
-            Vec3 n;
-            n[d] = blocked(c) ? 1 : -1;
-            set_wall(c, d, 1, {0.5, n, {}, -1});
-            set_wall(u, d, 0, {0.5, n, {}, -1});
-            ++orphans_;
+    }
+  for (size_t d = 0; d < 3; ++d) {
+    if (!shape_.used[d]) continue;
+    const int n = map.lattice().n[d], end = e_[d] - g_[d] - 1;
+    auto within = [&](int i) { return origin[d] + i >= 0 && origin[d] + i < n - 1; };
+    for (const Index3& c : cut_cells_) {
+      const int at_c = at(c[2], c[1], c[0]);
+      if (c[d] < end && within(c[d]) && raw_[size_t(at_c)] & (cell_cut << d)) gather_links(map, int(d), c, at_c);
+    }
+    for (int i = -g_[d]; i < end; ++i) {
+      if (within(i) && !map.may_have_orphans()) continue;
+      Index3 c, low{-g_[0], -g_[1], -g_[2]}, high{e_[0] - g_[0], e_[1] - g_[1], e_[2] - g_[2]};
+      low[d] = i, high[d] = i + 1;
+      for (c[2] = low[2]; c[2] < high[2]; ++c[2])
+        for (c[1] = low[1]; c[1] < high[1]; ++c[1])
+          for (c[0] = low[0]; c[0] < high[0]; ++c[0]) {
+            if (!within(i)) gather_links(map, int(d), c, at(c[2], c[1], c[0]));
+            close_orphan(int(d), at(c[2], c[1], c[0]));
           }
-        }
+    }
   }
   all_blocked_ = true;
   for (int k = 0; k < shape_.n[2]; ++k)

@@ -39,6 +39,7 @@ class PatchCuts {
  private:
   static constexpr uint16_t all_cuts = 63, is_blocked = 64, is_fresh = 128;
   void set_wall(int c, int d, int side, const WallSide& w);
+  void close_orphan(int d, int c);
   void gather_links(const CutMap& map, int d, const Index3& c, int at);
 
   /// One lattice index seen from the patch.
@@ -53,6 +54,7 @@ class PatchCuts {
   Index3 origin_{};
   std::vector<uint16_t> bits_;
   std::vector<uint8_t> raw_;      ///< CellFlag bits of the source cells
+  std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
   std::vector<int32_t> wall_[6];  ///< into walls_, valid where the bit is set
   std::vector<WallSide> walls_;
   bool any_ = false, all_blocked_ = false;

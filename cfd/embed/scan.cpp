@@ -202,6 +202,7 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
                    if (w > 0) map.cover(c, d, from, lattice.n[d]);
                  });
   }
+  if (!watertight) map.note_orphans();
   return watertight;
 }
 
