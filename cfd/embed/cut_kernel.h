@@ -80,8 +80,8 @@ class CutKernel {
     const State change = Gas::beyond(mean, other, 1);
     for (size_t q = 0; q < size_t(n); ++q) sum[q] += change[q] - mean[q];
     const State near = sum[Gas::p] > 0 && Gas::rho(sum) > 0 ? sum : mean;
-    const State star = gas_->at_wall(near, normal, v_wall);
-    return {star[Gas::p], std::sqrt(std::max(gas_->rho_c2(star), 0.0) * Gas::rho(star))};
+    const typename Gas::AtWall star = gas_->at_wall(near, normal, v_wall);
+    return {star.w[Gas::p], std::sqrt(star.rho_c2 * Gas::rho(star.w))};
   }
 
   void begin(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt) {
@@ -187,7 +187,7 @@ class CutKernel {
   State ghost(Cell x, const State& mean, int d, int side) const {
     const WallSide& w = cuts_->wall(x.c, d, side);
     const State other = read(moved(x, d, side ? -1 : 1));
-    const State star = gas_->at_wall(Gas::beyond(mean, other, w.s), w.n, w.v);
+    const State star = gas_->at_wall(Gas::beyond(mean, other, w.s), w.n, w.v).w;
     return Gas::on_line(star, other, mean, (w.s - 1) / (1 + w.s));
   }
 
@@ -236,18 +236,24 @@ class CutKernel {
     const Predicted& own = predicted(x);
     half = own.half;
     for (int q = 0; q < n; ++q) inner[q] = half[size_t(q)] + 0.5 * out * own.slope[d][q];
-    State star = gas_->at_wall(half, w.n, w.v), face = star;
-    if (line && star[Gas::p] < shock_ratio * other[Gas::p]) {
+    typename Gas::AtWall star;
+    State face;
+    bool shock = !line;
+    if (line) {
       const State mean = read(x), next = read(moved(x, d, side ? -1 : 1));
       State back = half;  // the slope is the one at t
       for (size_t q = 0; q < size_t(n); ++q) back[q] += next[q] - mean[q];
       star = gas_->at_wall(Gas::beyond(half, back, s), w.n, w.v);
-      face = Gas::on_line(star, other, half, (s - 0.5) / (1 + s));
+      face = Gas::on_line(star.w, other, half, (s - 0.5) / (1 + s));
+      shock = star.w[Gas::p] > shock_ratio * other[Gas::p];
+    }
+    if (shock) {
+      star = gas_->at_wall(half, w.n, w.v);
+      face = star.w;
     }
     double beyond[n];
     for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
-    const double c_in = patch_->row(Prim::c, 0, 0)[x.p],
-                 c_wall = std::sqrt(std::max(gas_->rho_c2(star), 0.0) / Gas::rho(star));
+    const double c_in = patch_->row(Prim::c, 0, 0)[x.p], c_wall = std::sqrt(star.rho_c2 / Gas::rho(star.w));
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, c_in, c_wall, d, stored) : solve(beyond, inner, c_wall, c_in, d, stored);
     const double volume = out * shape_.cell_volume();

@@ -53,9 +53,9 @@ class PatchCuts {
   GhostRules rules_{};
   Index3 origin_{};
   std::vector<uint16_t> bits_;
-  std::vector<uint8_t> raw_;      ///< CellFlag bits of the source cells
+  std::vector<uint8_t> raw_;       ///< CellFlag bits of the source cells
   std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
-  std::vector<int32_t> wall_[6];  ///< into walls_, valid where the bit is set
+  std::vector<int32_t> wall_[6];   ///< into walls_, valid where the bit is set
   std::vector<WallSide> walls_;
   bool any_ = false, all_blocked_ = false;
   int orphans_ = 0;

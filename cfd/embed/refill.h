@@ -51,7 +51,7 @@ bool refill(const Patch& patch, const PatchCuts& cuts, const typename Eos::Flow&
       const State B = has_B ? read(at) : A;
       if (cuts.cut(c, d, 1 - side)) {
         const WallSide& w = cuts.wall(c, d, 1 - side);
-        const State star = gas.at_wall(Gas::beyond(A, B, 1 + w.s), w.n, w.v);
+        const State star = gas.at_wall(Gas::beyond(A, B, 1 + w.s), w.n, w.v).w;
         value[count] = Gas::on_line(star, A, A, w.s / (1 + w.s));
         weight[count] = 0.01 + w.n[d] * w.n[d];
       } else {
@@ -77,7 +77,7 @@ bool refill(const Patch& patch, const PatchCuts& cuts, const typename Eos::Flow&
   for (size_t q = 0; q < size_t(n); ++q) out[q] = sum[q] / total;
   if constexpr (Eos::Flow::mixed) {
     out[Prim::alpha1] = value[primary][Prim::alpha1];
-    out[Prim::Pi] = eos.pi(out);
+    out[Prim::Pi] = eos.sum(out).pi;
   }
   return true;
 }

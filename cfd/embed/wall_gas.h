@@ -11,7 +11,7 @@
 
 namespace bw::cfd {
 
-/// Equation of state of GasFlow.
+/// Equation of state of GasFlow. sum(): Pi and the part of G rho c^2 that does not depend on p.
 struct GasAtWall {
   using Flow = GasFlow;
   double over_G, Pi;
@@ -20,12 +20,8 @@ struct GasAtWall {
     return over_G;
   }
   template <class W>
-  double pi(const W&) const {
-    return Pi;
-  }
-  template <class W>
-  double stiffness(const W&) const {
-    return Pi;
+  PiTerms<double> sum(const W&) const {
+    return {Pi, 0, Pi};
   }
   template <class W>
   bool ideal(const W&) const {
@@ -45,14 +41,6 @@ struct MixtureAtWall {
   template <class W>
   PiTerms<double> sum(const W& w) const {
     return mix.pi_sum(w[Prim::arho1], w[Prim::arho2], w[Prim::alpha1]);
-  }
-  template <class W>
-  double pi(const W& w) const {
-    return sum(w).pi;
-  }
-  template <class W>
-  double stiffness(const W& w) const {
-    return sum(w).stiffness;
   }
   template <class W>
   bool ideal(const W& w) const {
@@ -76,28 +64,30 @@ struct WallGas {
       return w[0];
   }
   static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
-  double rho_c2(const State& w) const {
-    const double G = eos.G(w);
-    return (eos.stiffness(w) + w[p] * (1 + G)) / G;
-  }
+  static double rho_c2(const PiTerms<double>& sum, double p, double G) { return (sum.stiffness + p * (1 + G)) / G; }
 
-  /// The state at the wall next to the gas w: the wall's normal velocity, the gas's tangential one, its composition.
-  State at_wall(const State& w, const Vec3& normal, const Vec3& v_wall) const {
-    const double dv = dot(v_wall - velocity(w), normal);
-    if (dv == 0) return w;
-    const double G = eos.G(w), r = rho(w);
-    const double K = std::max(rho_c2(w), 1e-12 * w[p]);
-    const WallStar star = wall_star(r, w[p], K, G, dv, eos.ideal(w), [&](double ratio, double pressure) {
+  /// The state at a wall.
+  struct AtWall {
+    State w;
+    double rho_c2;
+  };
+  /// Next to the gas w: the wall's normal velocity, the gas's tangential one, its composition.
+  AtWall at_wall(const State& w, const Vec3& normal, const Vec3& v_wall) const {
+    const double dv = dot(v_wall - velocity(w), normal), G = eos.G(w);
+    const double K = std::max(rho_c2(eos.sum(w), w[p], G), 1e-12 * w[p]);
+    if (dv == 0) return {w, K};
+    const WallStar star = wall_star(rho(w), w[p], K, G, dv, eos.ideal(w), [&](double ratio, double pressure) {
       State at = w;
       for (int q = 0; q < densities; ++q) at[size_t(q)] *= ratio;
-      return (eos.stiffness(at) + pressure * (1 + G)) / G;
+      return rho_c2(eos.sum(at), pressure, G);
     });
     State at = w;
     for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
     at[p] = star.p;
     for (int d = 0; d < 3; ++d) at[size_t(v + d)] += dv * normal[d];
-    if constexpr (Flow::mixed) at[Prim::Pi] = eos.pi(at);
-    return at;
+    const PiTerms<double> sum = eos.sum(at);
+    if constexpr (Flow::mixed) at[Prim::Pi] = sum.pi;
+    return {at, std::max(rho_c2(sum, star.p, G), 0.0)};
   }
 
   /// w + share (w - other), the line from a neighbour through w prolonged towards a wall: less of it where density or

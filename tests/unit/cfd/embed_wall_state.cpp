@@ -46,7 +46,7 @@ TEST(EmbedWallState, JwlRecedes) {  // F10c
   const Jwl tnt{371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1630, 7e9};
   const double rho = 1400, p = 1e10;
   auto stiffness = [&](double r, double q) { return bulk_stiffness(tnt, rho * r, q); };
-  for (double u = 0; u <= 3001; u += 250) {
+  for (const double u : {0., 5., 15., 19., 21., 100., 250., 400., 440., 500., 1000., 1500., 2000., 2500., 3000.}) {
     // isentrope by many small steps of ln rho
     double r = 1, q = p, v = 0;
     const double ds = 1e-5;
@@ -58,8 +58,9 @@ TEST(EmbedWallState, JwlRecedes) {  // F10c
     }
     const WallStar s = wall_star(rho, p, bulk_stiffness(tnt, rho, p), 1 / tnt.omega, -u, false, stiffness);
     EXPECT_GE(s.p, 0);
-    EXPECT_NEAR(s.p / q, 1, 5e-3) << u;
-    EXPECT_NEAR(s.compress / r, 1, 5e-3) << u;
+    const double band = u < 450 ? 1e-3 : 5e-3;
+    EXPECT_NEAR(s.p / q, 1, band) << u;
+    EXPECT_NEAR(s.compress / r, 1, band) << u;
   }
   for (const double u : {2e4, 1e6}) {
     const WallStar s = wall_star(rho, p, bulk_stiffness(tnt, rho, p), 1 / tnt.omega, -u, false, stiffness);
@@ -74,11 +75,11 @@ TEST(EmbedWallState, WallStateMovesWithTheWallAndSlips) {
   const WallGas<MixtureAtWall<TwoGases>> gas_at{{mix}};
   const auto w = gas(1.225, {30, 20, 10}, 101325);
   const Vec3 n = unit(Vec3{1, 2, -2}), wall{40, -20, 5};
-  const auto star = gas_at.at_wall(w, n, wall);
+  const auto star = gas_at.at_wall(w, n, wall).w;
   const Vec3 v{star[Prim::v], star[Prim::v_y], star[Prim::v_z]}, before{30, 20, 10};
   EXPECT_NEAR(dot(v, n), dot(wall, n), 1e-12);
   EXPECT_NEAR(norm((v - dot(v, n) * n) - (before - dot(before, n) * n)), 0, 1e-12);
-  EXPECT_EQ(gas_at.at_wall(w, n, before), w);
+  EXPECT_EQ(gas_at.at_wall(w, n, before).w, w);
 }
 
 }  // namespace
