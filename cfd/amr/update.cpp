@@ -154,7 +154,10 @@ class Update {
     return false;
   }
   bool empty(double (&U)[Cons::count], double (&w)[Prim::stored], int m, Booked& booked) const {
+    // the other material keeps its own density: of a stiff one, 1e-8 less is a pressure
+    const double other = m == 0 ? 1 - U[Cons::alpha1] : U[Cons::alpha1];
     w[Prim::arho1 + m] = 0;
+    w[Prim::arho1 + 1 - m] /= other;
     w[Prim::alpha1] = m == 0 ? 0 : 1;
     return settle(U, w, booked);
   }

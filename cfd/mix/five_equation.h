@@ -92,7 +92,7 @@ struct FiveEquation {
       sum.pi += alpha * (-p_ref * over_G);
       sum.stiffness += alpha * (-p_ref * over_G);
     } else {
-      const Reference<T> r = m.reference(arho / max(alpha, T(1e-9)));
+      const Reference<T> r = m.reference(arho / max(alpha, T(1e-100)));
       sum.pi += arho * r.e - alpha * (r.p * over_G);
       sum.stiffness += alpha * ((r.rho_dp - r.p) * over_G - r.rho2_de);
       sum.dpi += arho * r.e + alpha * (r.rho2_de - r.rho_dp * over_G);
