@@ -40,8 +40,9 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, State& s) {
   elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
   for (const BodyCase& body : cs.bodies) elements.materials.push_back(make_material(body.material));
   start(mesh, elements, s);
-  TimeStep time_step(mesh, elements);
-  Physics ph{std::move(elements), std::move(time_step), cs.viscosity, {}, {}, {}, {}};
+  Physics ph;
+  ph.elements = std::move(elements);
+  ph.viscosity = cs.viscosity;
   if (cs.filter.kind != "off") ph.filter.emplace(cs.filter, ph.elements, s);
   if (!cs.loads.empty()) {
     std::vector<LoadKind> kinds;
@@ -50,6 +51,7 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, State& s) {
   }
   for (const ConditionCase& condition : cs.conditions) ph.conditions.push_back(condition.kind);
   for (auto& condition : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, condition);
+  if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t);
   return ph;
 }
 

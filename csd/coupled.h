@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "coupling/solid_side.h"
-#include "csd/build.h"
+#include "csd/case.h"
+#include "csd/mesh/surface.h"
+#include "csd/model.h"
 
 namespace bw::csd {
 
@@ -15,9 +17,9 @@ class Coupled {
 
   double t_end() const { return side_->t_end(); }
   bool stop_asked() const { return side_->stop_asked(); }
-  /// Sends the surface at the state's time and puts the answer on the model's nodes, for the whole window. Returns the
-  /// window's end, at most t_max.
-  double exchange(Model& model, double dt_stable, double t_max, bool last);
+  /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window. Returns the window's
+  /// end, at most t_max.
+  double exchange(Model& model, double dt_stable, double t_max);
   /// Around each step of the window.
   void before_step(const Model& model);
   void after_step(const Model& model, double dt);
@@ -25,16 +27,12 @@ class Coupled {
   void finish() { side_->finish(); }
 
  private:
-  void renew_surface(const Model& model);
-  void update_surface(const Model& model);
   std::vector<Vec3> positions(const Model& model) const;
 
   const Case& case_;
-  std::vector<Face> faces_;              ///< original wet faces
-  coupling::WetSurface wet_;
-  std::vector<NodeId> nodes_;            ///< of wet_
-  std::vector<double> mass_, areal_mass_;  ///< per face of wet_: of its element, kg, kg/m^2
-  std::vector<Vec3> force_, x_before_;   ///< per node of wet_: N in this window, m
+  Surface surface_;
+  std::vector<NodeId> nodes_;           ///< of the surface as sent
+  std::vector<Vec3> force_, x_before_;  ///< per node of it: N in this window, m
   std::unique_ptr<coupling::SolidSide> side_;
 };
 

@@ -23,7 +23,7 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
     c.push_back({name, "J"});
   c.push_back({"mass", "kg"});
   for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
-  for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes"}) c.push_back({name, "1"});
+  for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"}) c.push_back({name, "1"});
   for (ProbeCase& probe : probes)
     std::visit([&](const auto& p) { for (const auto& column : p.columns()) c.push_back({probe.name + " " + column.name, column.unit}); },
                probe.kind);
@@ -75,12 +75,15 @@ void Output::write_row(Model& m) {
                           energy_.collapse, energy_.viscosity, energy_.external, energy_.conditions, energy_.cracks, energy_.residual,
                           mass_, momentum_.x, momentum_.y, momentum_.z, energy_.eqps_max, checkerboard(m.physics.elements, s),
                           collapsed_elements(m), double(m.mesh.node_count())};
+  auto& cracks = m.physics.cracks;
+  row.push_back(cracks ? double(cracks->opened_faces()) : 0);
+  row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
   for (ProbeCase& probe : probes_)
     std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
   history_->row(row);
 }
 
-std::string Output::write_fields(const Model& m) {
+std::string Output::write_fields(Model& m) {
   const State& s = m.state;
   if (s.t == t_fields_) return last_dump_;
   t_fields_ = s.t;
@@ -102,11 +105,26 @@ std::string Output::write_fields(const Model& m) {
                               VtkField::scalars("eqps", eqps), VtkField::scalars("eqps_max", eqps_max),
                               VtkField::integers("body", std::span<const int32_t>(m.mesh.body.data(), n)),
                               VtkField::integers("gid", std::span<const int64_t>(m.mesh.elem_gid.data(), n))};
+  std::vector<int64_t> frag_id;
+  if (auto& cracks = m.physics.cracks) {
+    const Fragments& fragments = cracks->fragments(m);
+    for (int32_t label : fragments.label()) frag_id.push_back(fragments.id(label));
+    cells.push_back(VtkField::scalars("fail", cracks->fail()));
+    cells.push_back(VtkField::integers("frag_id", frag_id));
+  }
   last_dump_ = series_.next_path();
   write_vtkhdf(last_dump_, mesh, {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
                                   VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})}, cells);
   series_.add(s.t);
   return last_dump_;
+}
+
+void Output::write_fragment_table(Model& m) {
+  std::vector<double> eqps;
+  for (int e = 0; e < m.mesh.elem_count(); ++e)
+    eqps.push_back(mean_eqps(m.physics.elements, m.state, m.physics.elements.blocks.slot[ElemId(e)]));
+  const auto table = m.physics.cracks->fragments(m).table(m.mesh, m.state.x, m.state.v, m.state.m, eqps);
+  write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
 }
 
 std::string Output::limiter(const Model& m) const {
@@ -136,6 +154,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     if (case_.run.output.fields_every > 0) write_fields(m);
   }
   history_->flush();
+  if (m.physics.cracks && !failed) write_fragment_table(m);
   Summary sum;
   sum.case_file = case_.file, sum.title = case_.run.title, sum.status = status, sum.message = message;
   sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
@@ -146,6 +165,10 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.masses = {{"solid", mass_}};
   sum.momenta = {{"x", momentum_.x}, {"y", momentum_.y}, {"z", momentum_.z}};
   sum.counts = {{"elements", double(m.mesh.elem_count())}, {"nodes", double(m.mesh.node_count())}, {"collapsed_elements", collapsed_elements(m)}};
+  if (m.physics.cracks) {
+    sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
+    sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
+  }
   sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
   sum.write(case_.run.output.directory + "/solid_summary.json", timers());
   say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status, m.state.step, m.state.t,

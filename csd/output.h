@@ -24,13 +24,14 @@ class Output {
   /// The next time that a step has to hit, at most the end.
   double next_time(double t) const;
   /// A file of fields now; returns its path.
-  std::string write_fields(const Model& model);
+  std::string write_fields(Model& model);
   /// Last rows, the summary; status as in common/app/summary.h.
   void finish(Model& model, const std::string& status, const std::string& message);
   const std::string& last_dump() const { return last_dump_; }
 
  private:
   void write_row(Model& model);
+  void write_fragment_table(Model& model);
   std::string limiter(const Model& model) const;
   double rate() const;
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "csd/cracks.h"
 #include "csd/element/elements.h"
 #include "csd/element/filter.h"
 #include "csd/element/time_step.h"
@@ -20,6 +21,7 @@ struct Physics {
   std::optional<PressureFilter> filter;
   std::optional<Loads> loads;
   std::vector<ConditionKind> conditions;
+  std::optional<Cracks> cracks;
   EnergyBooks energy;
 };
 

@@ -54,7 +54,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
     out.write_due(m);
     while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
       const double t_next = out.next_time(m.state.t);
-      const double t_target = coupled ? coupled->exchange(m, dt, t_next, false) : target(m.state.t, t_next, dt);
+      const double t_target = coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
       coupling::EqualSubsteps sub(m.state.t, t_target);
       while (!sub.done() && (coupled || steps_left())) {
         const double h = sub.next(dt);

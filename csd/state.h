@@ -8,6 +8,7 @@
 
 #include "common/math/pack.h"
 #include "csd/element/blocks.h"
+#include "csd/mesh/topology.h"
 
 namespace bw::csd {
 
@@ -44,11 +45,11 @@ struct State {
   void resize(size_t nodes, size_t slots) {
     describe([&](const char*, auto& field, const char*, Use) { field.resize(is_nodal(field) ? nodes : slots); });
   }
-  /// A copy of all nodal values of the parent at the end of every nodal field, per entry. Masses must then be summed anew.
-  void append_copies(std::span<const NodeId> parents) {
+  /// Every nodal field gets the parent's value at its end, split by split. Masses must then be summed anew.
+  void append_copies(std::span<const NodeSplit> splits) {
     describe([&](const char*, auto& field, const char*, Use) {
       if constexpr (requires { field[NodeId(0)]; })
-        for (NodeId parent : parents) field.push_back(field[parent]);
+        for (const NodeSplit& split : splits) field.push_back(field[split.parent]);
     });
   }
 

@@ -48,11 +48,12 @@ void step(Model& m, double dt) {
   kick(s, 0.5 * dt);  // eq (14)
   after_kick(m, dt);
   s.t += dt, s.dt = dt, s.step += 1;
+  if (m.physics.cracks) m.physics.cracks->advance(m);  // sec. 3, eq (16)
 }
 
-void change_given_forces(Model& m, std::vector<std::pair<NodeId, Vec3>> forces) {
+void change_given_forces(Model& m, std::vector<std::pair<Face, Vec3>> forces) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.give_back(m.state); }, kind);
-  m.physics.loads->replace_given(std::move(forces), m.state);
+  m.physics.loads->replace_given(m.mesh, std::move(forces), m.state);
   on_force(m, 0);
 }
 

@@ -151,32 +151,36 @@ void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, Sta
 
 }  // namespace
 
-void start(const Mesh& mesh, const Elements& el, State& s) {
+void start(const Mesh& mesh, Elements& el, State& s) {
   s.resize(size_t(mesh.node_count()), size_t(el.blocks.slot_count()));
   s.x = mesh.X;
   s.history.clear();
+  el.corner_mass.assign(size_t(el.blocks.slot_count()) * 8, 0);
   for (int body = 0; body < int(el.materials.size()); ++body) {
     const int first = el.blocks.first_block[size_t(body)], last = el.blocks.first_block[size_t(body) + 1];
     std::visit(
-        [&]<class M>(const M&) {
+        [&]<class M>(const M& material) {
           s.history.emplace_back(size_t(last - first) * 8 * M::components * lanes, 0.0);
-          for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1))
-            start_element<M>(mesh, el.blocks.elem[slot], slot, history_of<M>(s, el, body, slot / lanes) + slot % lanes, s);
+          for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1)) {
+            const ElemId e = el.blocks.elem[slot];
+            start_element<M>(mesh, e, slot, history_of<M>(s, el, body, slot / lanes) + slot % lanes, s);
+            const auto share = row_sums(corners(mesh, e));
+            for (int a = 0; a < 8; ++a)
+              el.corner_mass[size_t((slot / lanes * 8 + a) * lanes + slot % lanes)] = material.density * share[size_t(a)];
+          }
         },
         el.materials[size_t(body)]);
   }
-  sum_masses(mesh, el, s);
+  for (int e = 0; e < mesh.elem_count(); ++e)
+    for (int a = 0; a < 8; ++a) s.m[mesh.hex[ElemId(e)][size_t(a)]] += el.mass(el.blocks.slot[ElemId(e)], a);
 }
 
-void sum_masses(const Mesh& mesh, const Elements& el, State& s) {
-  for (double& m : s.m) m = 0;
-  for (int e = 0; e < mesh.elem_count(); ++e) {
-    const ElemId elem{e};
-    const double density = std::visit([](const auto& m) { return m.density; },
-                                      el.materials[size_t(mesh.body[elem])]);
-    const auto share = row_sums(corners(mesh, elem));
-    for (int a = 0; a < 8; ++a) s.m[mesh.hex[elem][size_t(a)]] += density * share[size_t(a)];
-  }
+double node_mass(const Mesh& mesh, const Elements& el, std::span<const ElemId> around, NodeId n) {
+  double m = 0;
+  for (ElemId e : around)
+    for (int a = 0; a < 8; ++a)
+      if (mesh.hex[e][size_t(a)] == n) m += el.mass(el.blocks.slot[e], a);
+  return m;
 }
 
 }  // namespace bw::csd

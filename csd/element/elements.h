@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All elements of the model: blocks and the material of each body, and the loops over them.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "csd/element/blocks.h"
@@ -12,6 +13,9 @@ namespace bw::csd {
 struct Elements {
   Blocks blocks;
   std::vector<Materials> materials;  ///< [body]
+  Aligned<double> corner_mass;       ///< [block][8][lanes] kg: row sums of rho_0 N_a (VALIDATION A.3)
+
+  double mass(SlotId slot, int corner) const { return corner_mass[size_t((slot / lanes * 8 + corner) * lanes + slot % lanes)]; }
 
   int body_of(SlotId slot) const;
 };
@@ -29,14 +33,14 @@ struct MeanStress {
   double dt = 0;  ///< s since State::volume was taken, for the viscosity's rate
 };
 
-/// Fills State from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v = 0. InputError naming the
+/// Fills State and the corner masses from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v = 0. InputError naming the
 /// element if a reference volume (or its determinant at a point) is not positive.
-void start(const Mesh& mesh, const Elements& elements, State& s);
+void start(const Mesh& mesh, Elements& elements, State& s);
 
 /// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work rate spent in viscosity [W].
 double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s);
 
-/// Lumped masses of all nodes, summed anew from the elements: row sums of rho_0 N_a (VALIDATION A.3).
-void sum_masses(const Mesh& mesh, const Elements& elements, State& s);
+/// Lumped mass of a node [kg]: its share of the elements given, which must ascend, so that it has one value.
+double node_mass(const Mesh& mesh, const Elements& elements, std::span<const ElemId> around, NodeId n);
 
 }  // namespace bw::csd

@@ -42,24 +42,24 @@ T centroid_omega2(const Vec<T> (&g)[3], T J_bar, T bulk, double mu, double densi
   return point_stiffness(g[0], g[1], g[2], m, bulk - m * T(1.0 / 3.0), 2) * J_bar * T(1 / density);
 }
 
-/// Symmetric 8x8 matrix, row by row of the lower triangle.
+/// Symmetric 8x8 matrix.
 template <class T>
 struct Sym8 {
-  T a[36];
-  static constexpr int at(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+  T a[8][8];
   T trace() const {
-    T sum(0);
-    for (int i = 0; i < 8; ++i) sum += a[at(i, i)];
+    T sum = a[0][0];
+    for (int i = 1; i < 8; ++i) sum += a[i][i];
     return sum;
   }
   /// (s A)^2
   Sym8 scaled_square(T s) const {
+    const T s2 = s * s;
     Sym8 r;
     for (int i = 0; i < 8; ++i)
       for (int j = 0; j <= i; ++j) {
-        T sum(0);
-        for (int k = 0; k < 8; ++k) sum += a[at(i, k)] * a[at(k, j)];
-        r.a[at(i, j)] = s * s * sum;
+        T sum = a[i][0] * a[j][0];
+        for (int k = 1; k < 8; ++k) sum += a[i][k] * a[j][k];
+        r.a[i][j] = r.a[j][i] = s2 * sum;
       }
     return r;
   }
@@ -68,14 +68,14 @@ struct Sym8 {
     T squares(0), row_max(0);
     for (int i = 0; i < 8; ++i) {
       T row(0);
-      for (int j = 0; j < 8; ++j) row += abs(a[at(i, j)]), squares += a[at(i, j)] * a[at(i, j)];
+      for (int j = 0; j < 8; ++j) row += abs(a[i][j]), squares += a[i][j] * a[i][j];
       row_max = max(row_max, row);
     }
     return min(row_max, sqrt(squares));
   }
 };
 
-/// Upper bound of the largest eigenvalue of a positive semi-definite A, at most 3^(1/64) too high for a threefold one: with
+/// Upper bound of the largest eigenvalue of a positive semi-definite A, at most 1.3 % too high for a threefold one: with
 /// A_0 = A, A_(n+1) = (A_n / tr A_n)^2, the spectral radius is tr A_0 sqrt(tr A_1 sqrt(tr A_2 ...)).
 template <class T>
 T largest_eigenvalue_bound(Sym8<T> A) {
@@ -101,13 +101,12 @@ inline constexpr std::array<Sym8<double>, 8> gradient_products = [] {
         d[a][k] = 0.125 * node_sign[a][k] * (1 + node_sign[a][l] * at[l]) * (1 + node_sign[a][m] * at[m]);
       }
     for (int a = 0; a < 8; ++a)
-      for (int b = 0; b <= a; ++b)
-        table[size_t(g)].a[Sym8<double>::at(a, b)] = d[a][0] * d[b][0] + d[a][1] * d[b][1] + d[a][2] * d[b][2];
+      for (int b = 0; b < 8; ++b) table[size_t(g)].a[a][b] = d[a][0] * d[b][0] + d[a][1] * d[b][1] + d[a][2] * d[b][2];
   }
   return table;
 }();
 
-/// Upper bound of omega^2 [1/s^2] of an element at positions x. mass [kg]: its own share at the nodes; sigma_m [Pa]: the mean
+/// Upper bound of omega^2 [1/s^2] of an element at positions x with the masses [kg] given at its nodes; sigma_m [Pa]: the mean
 /// stress it bears. history as for internal_force, not changed.
 template <class T, class M>
 T omega2_bound(const M& material, const Corners<T>& x, T V0, const T (&mass)[8], T sigma_m, const double* history) {
@@ -120,14 +119,15 @@ T omega2_bound(const M& material, const Corners<T>& x, T V0, const T (&mass)[8],
     const Point<T> p(g1, g2, g3, load_sym<T>(history + i * M::components * lanes));
     const T per_J = T(material.mu) * p.trial.iso * p.trial.iso * sqrt(p.trial.iso);  // mu J^(-2/3) / J
     const T m = T(2) * per_J * p.trial.third_trace;
-    const T a = abs(sigma_m) + T(2) * per_J * sqrt(p.trial.dev2);
-    const T weight = p.det_g * point_stiffness(g1, g2, g3, m + a, bulk - m * T(1.0 / 3.0), 5);
-    for (int k = 0; k < 36; ++k) A.a[k] += T(gradient_products[size_t(i)].a[k]) * weight;
+    const T stress = abs(sigma_m) + T(2) * per_J * sqrt(p.trial.dev2);
+    const T weight = p.det_g * point_stiffness(g1, g2, g3, m + stress, bulk - m * T(1.0 / 3.0), 5);
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b) A.a[a][b] += T(gradient_products[size_t(i)].a[a][b]) * weight;
   }
   T root[8];
   for (int a = 0; a < 8; ++a) root[a] = T(1) / sqrt(mass[a]);
   for (int a = 0; a < 8; ++a)
-    for (int b = 0; b <= a; ++b) A.a[Sym8<T>::at(a, b)] *= root[a] * root[b];
+    for (int b = 0; b < 8; ++b) A.a[a][b] *= root[a] * root[b];
   return largest_eigenvalue_bound(A);
 }
 

@@ -9,17 +9,34 @@
 
 namespace bw::csd {
 
-TimeStep::TimeStep(const Mesh& mesh, const Elements& el)
-    : mass_(size_t(el.blocks.slot_count()) * 8), distortion_(size_t(el.blocks.slot_count()), 1.0) {
-  for (int s = 0; s < el.blocks.slot_count(); ++s) {
-    const ElemId e = el.blocks.elem[SlotId(s)];
-    const double density = std::visit([](const auto& m) { return m.density; }, el.materials[size_t(mesh.body[e])]);
-    const auto share = row_sums(corners(mesh, e));
-    for (int a = 0; a < 8; ++a) mass_[size_t((s / lanes * 8 + a) * lanes + s % lanes)] = density * share[size_t(a)];
+void TimeStep::share_masses(const Elements& el, const State& s) {
+  if (mass_.empty()) {
+    mass_ = el.corner_mass;
+    distortion_.resize(s.V0.size(), 1.0);
   }
+  sum_.resize(s.m.size());
+  parallel_for(int64_t(sum_.size()), [&](int64_t n) { sum_[NodeId(n)] = 0; });
+  const auto for_corners = [&](int block, const auto& work) {
+    const int32_t* nodes = el.blocks.nodes_of(block);
+    for (int l = 0; l < lanes; ++l) {
+      const SlotId slot(block * lanes + l);
+      const double omega2 = s.omega2[slot] * distortion_[slot];
+      for (int a = 0; a < 8; ++a)
+        work(l, omega2 * mass_[size_t(block * 8 + a) * lanes + size_t(l)], NodeId(nodes[a * lanes + l]), mass_[size_t(block * 8 + a) * lanes + size_t(l)]);
+    }
+  };
+  for_coloured_blocks(el.blocks, [&](int block, int) {
+    for_corners(block, [&](int lane, double weight, NodeId n, double&) {
+      if (lane < el.blocks.used[size_t(block)]) sum_[n] += weight;
+    });
+  });
+  for_blocks(el.blocks, [&](int block, int) {
+    for_corners(block, [&](int, double weight, NodeId n, double& mass) { mass = weight / sum_[n] * s.m[n]; });
+  });
 }
 
 void TimeStep::refresh(const Elements& el, const State& s) {
+  share_masses(el, s);
   for_blocks(el.blocks, [&](int block, int body) {
     const int32_t* nodes = el.blocks.nodes_of(block);
     std::visit(
@@ -39,6 +56,7 @@ void TimeStep::refresh(const Elements& el, const State& s) {
         el.materials[size_t(body)]);
   });
   refreshed_at_ = s.step;
+  stale_ = false;
 }
 
 double TimeStep::stable(const Elements& el, const State& s) {
@@ -50,7 +68,7 @@ double TimeStep::stable(const Elements& el, const State& s) {
     return Worst{std::fmax(a.omega2, b.omega2), b.omega2 > a.omega2 ? b.limiting : a.limiting,
                  a.inverted.valid() ? a.inverted : b.inverted};
   };
-  if (s.step - refreshed_at_ >= refresh_steps || s.step < refreshed_at_) refresh(el, s);
+  if (stale_ || s.step - refreshed_at_ >= refresh_steps) refresh(el, s);
   const Worst w = parallel_reduce(
       el.blocks.slot_count(), Worst{},
       [&](int64_t i) {

@@ -7,12 +7,13 @@
 
 namespace bw::csd {
 
-/// 2/omega_max of the worst element bounds the model's step (Irons). The bound of element/stable_step.h costs about as much as
-/// a force, so it is evaluated every `refresh_steps`; in between each element's is scaled by its centroid part, which
-/// follows all of its change of size and shape but distortion.
+/// omega_max^2 <= max over elements of lambda_max(K_e, M_e) for any share-out of the nodes' masses with sum M_e = M. The own shares are
+/// one; each refresh moves mass, at every node, to the elements in proportion to omega_e^2 m_e, so that stiff elements
+/// borrow from soft neighbours and the bound comes down to what the assembled model allows.
+/// The bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
+/// each element's is scaled by its centroid part, which follows all of its change of size and shape but distortion.
 class TimeStep {
  public:
-  TimeStep(const Mesh& mesh, const Elements& elements);
   /// s. Needs the results of internal_force at s.x.
   double stable(const Elements& elements, const State& s);
   /// Of the last call. Ties: lowest slot.
@@ -20,13 +21,18 @@ class TimeStep {
   /// The lowest slot whose volume isn't positive (or not a number) in the last call.
   std::optional<SlotId> inverted() const { return inverted_; }
 
+  /// The topology or the masses have changed.
+  void renew() { stale_ = true; }
   static constexpr int refresh_steps = 16;
 
  private:
+  void share_masses(const Elements& elements, const State& s);
   void refresh(const Elements& elements, const State& s);
-  Aligned<double> mass_;                // [block][8][lanes] kg, an element's own share at its nodes
-  Field<double, SlotId> distortion_;    // bound / centroid part
-  int64_t refreshed_at_ = -refresh_steps;
+  Aligned<double> mass_;              // [block][8][lanes] kg, M_e
+  Field<double, NodeId> sum_;         // work space
+  Field<double, SlotId> distortion_;  // bound / centroid part
+  int64_t refreshed_at_ = 0;
+  bool stale_ = true;
   SlotId limiting_;
   std::optional<SlotId> inverted_;
 };

@@ -9,6 +9,7 @@ namespace bw::csd {
 struct EqpsLimit {
   double eqps_max = 0.3;
   static constexpr auto name = "eqps";
+  static constexpr bool uses_stress = false;
   template <class K>
   void describe(K& k) {
     k.required("limit", eqps_max, dim::none, "equivalent plastic strain at failure");

@@ -13,6 +13,7 @@ namespace bw::csd {
 template <class C>
 concept Criterion = requires(const C& c, double eqps, const Sym3& sigma) {
   C::name;
+  { C::uses_stress } -> std::convertible_to<bool>;
   { c.fail(eqps, sigma) } -> std::same_as<double>;
 };
 

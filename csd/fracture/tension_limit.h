@@ -9,6 +9,7 @@ namespace bw::csd {
 struct SpallLimit {
   double sigma_max = 0;
   static constexpr auto name = "spall";
+  static constexpr bool uses_stress = true;
   template <class K>
   void describe(K& k) {
     k.required("limit", sigma_max, dim::pressure, "mean tension at failure");

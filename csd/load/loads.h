@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All loads of a case as nodal forces, and the work they do.
 #pragma once
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,17 +15,20 @@ class Loads {
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
   /// Forces at positions s.x and time t; added to s.f.
   void add(const Mesh& mesh, double t, State& s);
-  /// Forces [N] from outside (a fluid), which every add() includes until they are replaced. The present ones are exchanged in
-  /// s.f too. A node that was split leaves them to its parent: they are per window, and cracks are announced before the next.
-  void replace_given(std::vector<std::pair<NodeId, Vec3>> forces, State& s);
+  /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are replaced.
+  /// The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new nodes.
+  void replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s);
   /// W: power of the forces of the last add() at the velocities s.v.
   double power(const State& s) const;
+  /// Nodes were split; forces() of parent and children are to be shared by mass then.
+  void append_copies(std::span<const NodeSplit> splits);
   /// Nodal forces of the last add() [N].
   Field<Vec3, NodeId>& forces() { return f_; }
 
  private:
   std::vector<LoadKind> kinds_;
-  std::vector<std::pair<NodeId, Vec3>> given_;
+  void add_given(const Mesh& mesh);
+  std::vector<std::pair<Face, Vec3>> given_;
   Field<Vec3, NodeId> f_;  // N
 };
 

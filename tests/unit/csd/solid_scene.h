@@ -118,8 +118,10 @@ inline Model make_model(Mesh mesh, const Materials& material, const std::functio
   el.materials.push_back(material);
   State s;
   start(mesh, el, s);
-  TimeStep time_step(mesh, el);
-  Physics ph{std::move(el), std::move(time_step), viscosity, {}, {}, std::move(conditions), {}};
+  Physics ph;
+  ph.elements = std::move(el);
+  ph.viscosity = viscosity;
+  ph.conditions = std::move(conditions);
   if (filter.kind != "off") ph.filter.emplace(filter, ph.elements, s);
   if (!loads.empty()) ph.loads.emplace(mesh, std::move(loads));
   for (auto& c : ph.conditions) std::visit([&](auto& condition) { condition.select(mesh); }, c);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/cracks.h"
+
+#include <algorithm>
+
+#include "common/parallel/loop.h"
+#include "csd/element/results.h"
+#include "csd/model.h"
+
+namespace bw::csd {
+
+Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t)
+    : criterion_(input.criterion.model), fracture_(input, mesh), fragments_(mesh, t), fail_(size_t(mesh.elem_count())) {}
+
+void Cracks::update_fail(const Model& m) {
+  const Elements& el = m.physics.elements;
+  const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+  std::visit(
+      [&]<class C>(const C& criterion) {
+        parallel_for(int64_t(fail_.size()), [&](int64_t e) {
+          const SlotId slot = el.blocks.slot[ElemId(e)];
+          if constexpr (C::uses_stress) {
+            const ElementResult r = evaluate(el, m.state, slot, sigma_m);
+            fail_[size_t(e)] = criterion.fail(r.eqps, r.sigma);
+          } else {
+            fail_[size_t(e)] = criterion.fail(mean_eqps(el, m.state, slot), {});
+          }
+        });
+      },
+      criterion_);
+}
+
+bool Cracks::advance(Model& m) {
+  update_fail(m);
+  const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+  const auto sigma = [&](ElemId e) { return evaluate(m.physics.elements, m.state, m.physics.elements.blocks.slot[e], sigma_m).sigma; };
+  const bool opened = fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
+  if (opened) take_over(m, splits_, changed_);
+  return opened;
+}
+
+void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
+  auto& [mesh, topology, s, ph] = m;
+  const double filter_energy = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
+  s.append_copies(splits);
+  if (ph.loads) ph.loads->append_copies(splits);
+  for (ElemId e : changed) ph.elements.blocks.renew(mesh, e);
+  std::vector<NodeId> touched;
+  for (const NodeSplit& split : splits) touched.push_back(split.parent), touched.push_back(split.child);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (NodeId n : touched) {  // children of children hold copies of the first parent's mass: all see the mass before the step
+    const double before = s.m[n];
+    s.m[n] = node_mass(mesh, ph.elements, topology.elements(n), n);
+    s.f[n] = (s.m[n] / before) * s.f[n];
+    if (ph.loads) ph.loads->forces()[n] = (s.m[n] / before) * ph.loads->forces()[n];
+  }
+  for (auto& kind : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, kind);
+  ph.time_step.renew();
+  if (ph.filter) {
+    ph.filter->renew(ph.elements, s);
+    ph.filter->smooth(ph.elements, s);
+    ph.energy.cracks += filter_energy - ph.filter->energy(ph.elements, s);
+  }
+  relabelled_ = false;
+}
+
+const Fragments& Cracks::fragments(const Model& m) {
+  if (!relabelled_) fragments_.relabel(m.mesh, m.state.t);
+  relabelled_ = true;
+  return fragments_;
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cracks and fragments in the step: failure values from the elements, then everything that a split node touches. A crack
+// changes mass, momentum and energy by nothing but the filter's share, which is booked: nodes get their parent's position,
+// velocity and acceleration.
+#pragma once
+#include <vector>
+
+#include "csd/fracture/fracture.h"
+#include "csd/fragments/fragments.h"
+
+namespace bw::csd {
+
+struct Model;
+
+class Cracks {
+ public:
+  Cracks(const FractureInput& input, const Mesh& mesh, double t);
+
+  /// Opens what breaks at the model's time. Returns true if the topology changed.
+  bool advance(Model& model);
+  /// Failure value of each element at the last step, before smoothing.
+  const std::vector<double>& fail() const { return fail_; }
+  /// Up to date with all cracks; those that broke off since the last call are born now.
+  const Fragments& fragments(const Model& model);
+  int64_t opened_faces() const { return fracture_.opened(); }
+
+ private:
+  void update_fail(const Model& model);
+  void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
+
+  Criteria criterion_;
+  Fracture fracture_;
+  Fragments fragments_;
+  std::vector<double> fail_;  // [element]
+  std::vector<NodeSplit> splits_;
+  std::vector<ElemId> changed_;
+  bool relabelled_ = true;
+};
+
+}  // namespace bw::csd
