@@ -83,7 +83,8 @@ def run(name, text, ranks="1+1", threads=0, only=None, expect=0):
     seconds = time.monotonic() - start
     (work / "log.txt").write_text(done.stdout)
     if done.returncode != expect:
-        tail = "\n".join(done.stdout.strip().split("\n")[-6:])
+        lines = [line for line in done.stdout.strip().split("\n") if line and not line.startswith(("run:", "cluster:", "     "))]
+        tail = "\n".join(lines[-4:])
         raise RunFailed(f"{file} ended with {done.returncode}, not {expect}:\n{tail}")
     return Result(out, seconds, done.stdout, done.returncode)
 
