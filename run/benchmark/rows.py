@@ -171,7 +171,7 @@ def moving_sphere_overhead():
     air = fluid.material("air", reference.GAS)
     base = cube(64, 100, air, busy("air", 1.2))
     body = ('[[fluid.body]]\nname = "ball"\nshape = {kind = "sphere", centre = [0.5, 0.5, 0.5], radius = 0.2}\n'
-            'motion = {kind = "velocity", velocity = [30.0, 20.0, 10.0]}\n')
+            'motion = {kind = "velocity", value = [30.0, 20.0, 10.0]}\n')
     seconds = [step_seconds(fields.summary(run(f"bench_{name}", text, threads=1, only="fluid").directory, "fluid"))
                for name, text in (("no_sphere", base), ("sphere", base + body))]
     return [row("moving_sphere_overhead", seconds[1] / seconds[0] - 1, "of the run without it")]

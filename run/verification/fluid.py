@@ -223,8 +223,8 @@ def f10():
         t = 1e-3 if abs(speed) < 1000 else 2e-4
         text = tube(0.0, 2.0, n, 0, ("wall", "outflow"), t) + material("air", reference.GAS)
         text += region('{kind = "everywhere"}', "air", 1.225, 101325.0)
-        text += (f'[[fluid.body]]\nname = "piston"\nthin = true\nshape = {{kind = "plane", point = [{x0}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
-                 f'motion = {{kind = "velocity", velocity = [{float(speed)!r}, 0.0, 0.0]}}\n')
+        text += (f'[[fluid.body]]\nname = "piston"\nshape = {{kind = "piston", point = [{x0}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
+                 f'motion = {{kind = "velocity", value = [{float(speed)!r}, 0.0, 0.0]}}\n')
         result = run(f"F10_{speed}", text, only="fluid")
         x, rho, u, p = profile(result.directory, 0)
         wall = x0 + speed * t
@@ -258,14 +258,14 @@ def f13():
     for shape in ('{kind = "sphere", centre = [0.41, 0.43, 0.47], radius = 0.2}',
                   '{kind = "box", lower = [0.3, 0.3, 0.3], upper = [0.6, 0.55, 0.65]}'):
         kind = shape.split('"')[1]
-        body = f'[[fluid.body]]\nname = "body"\nshape = {shape}\nmotion = {{kind = "velocity", velocity = {list(u)}}}\n'
+        body = f'[[fluid.body]]\nname = "body"\nshape = {shape}\nmotion = {{kind = "velocity", value = {list(u)}}}\n'
         result = run(f"F13a_{kind}", block(32, body, u, 2e-3, flow_text), only="fluid")
         flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
         p, rho = flow.array("pressure"), flow.array("density")
         yield at_most(f"(a) uniform flow past a moving {kind}: max |p/p0-1|", np.nanmax(np.abs(p / 101325 - 1)), 1e-12, result.seconds)
         yield at_most(f"(a) uniform flow past a moving {kind}: max |rho/rho0-1|", np.nanmax(np.abs(rho / 1.225 - 1)), 1e-12)
-    body = ('[[fluid.body]]\nname = "box"\nthin = true\nshape = {kind = "box", lower = [-0.3, -0.25, -0.2], upper = [0.3, 0.25, 0.2], '
-            'centre = [0.5, 0.5, 0.5], rotation = [30.0, 20.0, 10.0]}\nmotion = {kind = "fixed"}\n')
+    body = ('[[fluid.body]]\nname = "box"\nthin = true\nshape = {kind = "box", lower = [0.2, 0.25, 0.3], upper = [0.8, 0.75, 0.7]}\n'
+            'turn_angle = 33.0\nturn_axis = [1.0, 2.0, 3.0]\nturn_point = [0.5, 0.5, 0.5]\n')
     result = run("F13b", block(32, body, (0, 0, 0), 2e-2, region('{kind = "everywhere"}', "air", 1.225, 101325.0)), only="fluid")
     flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
     yield at_most("(b) rest in a tilted closed box: max |p/p0-1|", np.nanmax(np.abs(flow.array("pressure") / 101325 - 1)), 1e-12, result.seconds)
@@ -279,7 +279,7 @@ def plate():
         text = "[time]\nend = 1.0\nmax_steps = 10000\n" + output("1 s", "0.001 s")
         text += "[fluid]\nlower = [0, 0, 0]\nupper = [1, 0.5, 0.5]\ncells = [32, 16, 16]\n" + material("air", reference.GAS)
         text += region('{kind = "everywhere"}', "air", 1.225, 1e5) + region(half_space(position, 0), "air", 122.5, 1e7)
-        text += (f'[[fluid.body]]\nname = "plate"\nthin = true\nshape = {{kind = "plane", point = [{position!r}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
+        text += (f'[[fluid.body]]\nname = "plate"\nshape = {{kind = "plane", point = [{position!r}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
                  'motion = {kind = "fixed"}\n')
         result = run(f"F13c_{note.replace(' ', '_')}", text, only="fluid")
         flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
