@@ -111,7 +111,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   change.book_sides = 0;
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper)
-      if (forest_.at_side(block, d, upper)) change.book_sides |= 1u << (2 * d + upper);
+      if (shape.used[size_t(d)] && forest_.at_side(block, d, upper)) change.book_sides |= 1u << (2 * d + upper);
   const int m = patch.material;
   if (m != 0 && setup_.medium.is_gas[m - 1])
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
