@@ -32,7 +32,7 @@ struct FractureInput {
     k.optional(
         "faces_per_element", faces_per_element,
         "faces that a broken element may open in all, one in a step; 6: no limit, which in the end parts all broken "
-        "elements; 1 leaves strips");
+        "elements; fewer leave larger pieces");
     k.expect(faces_per_element >= 1 && faces_per_element <= 6, "faces_per_element", "1 to 6");
   }
 };
