@@ -149,11 +149,11 @@ void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
 }
 
 void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::count]) {
-  if (!m.walls) throw InputError(fmt::format("{}: shape: a cavity needs the surface of a body, from csd or from [[fluid.body]]", region.place));
+  if (!m.walls) throw InputError(fmt::format("{}: expected no cavity: it needs the surface of a body, from csd or from [[fluid.body]]", region.place));
   const Cavity cavity = find_cavity(m.walls->surface(), m.walls->map(), shape.seed);
-  if (cavity.cells.empty()) throw InputError(fmt::format("{}: seed: the point lies in metal or outside the domain", region.place));
+  if (cavity.cells.empty()) throw InputError(fmt::format("{}: the cavity's seed lies in metal or outside the domain", region.place));
   if (cavity.reaches_boundary)
-    throw InputError(fmt::format("{}: seed: from this point the side of the domain is reached: no closed surface is around it", region.place));
+    throw InputError(fmt::format("{}: from the cavity's seed the side of the domain is reached: no closed surface is around it", region.place));
   std::vector<Index3> cells = cavity.cells;
   const BlockShape& s = m.forest.shape();
   std::vector<std::vector<Index3>> by_block(size_t(m.forest.local_blocks()));
@@ -183,7 +183,7 @@ void check_burn(Model& m, const Case& cs) {
     if (m.forest.comm().max(int64_t(c.block >= 0 && !blocked && m.state.block(c.block, Cons::alpha1)[s.at(c.k, c.j, c.i)] > 0.5)) > 0) ++in_explosive;
   }
   if (in_explosive < int64_t(burn.points.size()))
-    throw InputError(fmt::format("{}: points: expected detonation points inside the explosive", cs.fluid.burn[0].place));
+    throw InputError(fmt::format("{}: expected detonation points inside the explosive", cs.fluid.burn[0].place));
   double far = 0;
   for (int b = 0; b < m.forest.local_blocks(); ++b) {
     const Vec3 lower = m.forest.lower(b);

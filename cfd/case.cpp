@@ -79,10 +79,10 @@ void FluidCase::check(Keys& k) const {
     const int m = material_index(s.material, s.place);
     const auto& eos = *material[size_t(m)].eos;
     if (s.unburnt && !std::holds_alternative<Jwl>(eos))
-      throw InputError(fmt::format("{}: unburnt: expected a material with a JWL equation of state", s.place));
+      throw InputError(fmt::format("{}: expected a material with a JWL equation of state", s.place));
     const double least = std::holds_alternative<StiffenedGas>(eos) ? -std::get<StiffenedGas>(eos).p_inf : 0;
     if (!(s.pressure > least))
-      throw InputError(fmt::format("{}: pressure: expected a pressure above {:g} Pa", s.place, least));
+      throw InputError(fmt::format("{}: expected a pressure above {:g} Pa", s.place, least));
   };
   for (const auto& r : region) check_state(r);
   for (const auto& i : inflow) check_state(i);
@@ -96,9 +96,9 @@ void FluidCase::check(Keys& k) const {
   for (const auto& b : burn) {
     const int m = material_index(b.material, b.place);
     if (!std::holds_alternative<Jwl>(*material[size_t(m)].eos))
-      throw InputError(fmt::format("{}: material: expected an explosive (a JWL equation of state), \"{}\" is none", b.place, b.material));
+      throw InputError(fmt::format("{}: expected an explosive (a JWL equation of state), \"{}\" is none", b.place, b.material));
     if (std::none_of(region.begin(), region.end(), [&](const auto& r) { return r.material == b.material && r.unburnt; }))
-      throw InputError(fmt::format("{}: burn: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
+      throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
   const auto inside = [&](const Vec3& x) {
     for (int d = 0; d < 3; ++d)
