@@ -19,4 +19,8 @@ if(TARGET bw_coupling)
     add_test(NAME coupled_simple_wave COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/simple_wave.py
              $<TARGET_FILE_DIR:csd> ${CMAKE_CURRENT_BINARY_DIR}/simple_wave)
   endif()
+  if(TARGET csd AND TARGET cfd)
+    add_test(NAME coupled_programs COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/programs.py
+             $<TARGET_FILE_DIR:csd> ${CMAKE_SOURCE_DIR}/run/cases/piston/case.toml ${CMAKE_CURRENT_BINARY_DIR}/programs)
+  endif()
 endif()
