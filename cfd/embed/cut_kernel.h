@@ -268,7 +268,7 @@ class CutKernel {
   void book_sides(BlockChange& change) {
     for (int d = 0; d < 3; ++d)
       for (int upper = 0; upper < 2; ++upper) {
-        if (!(change.book_sides >> (2 * d + upper) & 1)) continue;
+        if (!shape_.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
         double(&sum)[Cons::count] = change.side[2 * d + upper];
         std::fill(sum, sum + Cons::count, 0.0);
         Index3 first{0, 0, 0}, last = shape_.n;
