@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "common/app/log.h"
 
@@ -20,7 +21,11 @@ std::string shown_duration(double seconds) {
 Progress::Progress(double t_end, int64_t max_steps, Style style)
     : t_end_(t_end), max_steps_(max_steps), style_(style), start_(Clock::now()), last_(start_) {
   if (!speaks()) style_ = Style::silent;
-  if (style_ == Style::automatic) style_ = isatty(STDOUT_FILENO) ? Style::bar : Style::lines;
+  if (style_ != Style::automatic) return;
+  // mpirun gives its programs a terminal of their own, whatever it writes to: the launcher knows better
+  const char* wish = std::getenv("BREAKWAVE_PROGRESS");
+  const std::string word = wish ? wish : isatty(STDOUT_FILENO) ? "bar" : "lines";
+  style_ = word == "bar" ? Style::bar : word == "off" ? Style::silent : Style::lines;
 }
 
 std::string Progress::line(int64_t step, double t, double seconds, const std::string& extra) const {
