@@ -9,12 +9,12 @@
 namespace bw::csd {
 
 /// A rigid plane that no node crosses. A node that would is put on it and loses its normal velocity: an inelastic impact of the
-/// lumped mass, whose energy is booked. It leaves when its body as a whole no longer presses on the plane, or, on demand,
-/// as soon as it is pulled itself. (The published Taylor bars hold the foot on the wall: VALIDATION S7.)
+/// lumped mass, whose energy is booked. It stays while its body as a whole moves towards the plane; afterwards it leaves
+/// when it is pulled. (The published Taylor bars hold the foot on the wall, VALIDATION S7; free to lift, its rim curls up.)
 struct RigidWall {
   static constexpr auto name = "rigid_wall";
   Vec3 point{}, normal{};
-  std::string friction = "none", separation = "body", nodes, place;
+  std::string friction = "none", separation = "rebound", nodes, place;
   Reaction reaction;
 
   template <class K>
@@ -22,8 +22,9 @@ struct RigidWall {
     k.required("point", point, dim::length, "a point of the plane");
     k.required("normal", normal, dim::none, "of the plane, into the half space where the nodes are (of any length)");
     k.choice("friction", friction, {"none", "stick"}, "none: nodes slide freely; stick: nodes in contact don't slide");
-    k.choice("separation", separation, {"body", "node"},
-             "body: nodes in contact leave together, when the wall's force on their body would be a pull; node: each leaves when it is pulled");
+    k.choice("separation", separation, {"rebound", "node"},
+             "rebound: nodes in contact stay while their body's momentum leads to the wall, then each leaves when it is pulled; "
+             "node: each leaves when it is pulled, from the start");
     k.optional("nodes", nodes, "name of the node set that the wall stops; empty: all nodes");
     k.expect(norm(normal) > 0, "normal", "a direction other than (0, 0, 0)");
     if (!k.is_manual()) place = k.where("nodes"), normal = unit(normal);
@@ -34,16 +35,15 @@ struct RigidWall {
     if (!nodes.empty()) set = node_set(mesh, nodes, place);
     std::vector<char> at(size_t(mesh.node_count()), 0);
     for (size_t i = 0; i < reaction.nodes.size(); ++i) at[size_t(reaction.nodes[i])] = touches_[i];
-    std::vector<int32_t> body(size_t(mesh.node_count()), 0);
+    body_.assign(size_t(mesh.node_count()), 0);
     for (int e = 0; e < mesh.elem_count(); ++e)
-      for (NodeId n : mesh.hex[ElemId(e)]) body[size_t(n)] = mesh.body[ElemId(e)];
-    touches_.clear(), body_.clear();
+      for (NodeId n : mesh.hex[ElemId(e)]) body_[size_t(n)] = mesh.body[ElemId(e)];
+    touches_.clear();
     for (NodeId n : set) {
       const NodeId parent = mesh.parent[n];  // a node born on the wall stays on it
       touches_.push_back(at[size_t(n)] || (parent.valid() && at[size_t(parent)]));
-      body_.push_back(body[size_t(n)]);
     }
-    press_.assign(size_t(*std::max_element(body.begin(), body.end())) + 1, 0);
+    momentum_.assign(size_t(*std::max_element(body_.begin(), body_.end())) + 1, 0);
     reaction.renew(set, size_t(mesh.node_count()));
   }
   void before_drift(State& s, double dt) {
@@ -56,14 +56,14 @@ struct RigidWall {
     }
   }
   void on_force(State& s, double dt) {
-    std::fill(press_.begin(), press_.end(), 0);
-    for (size_t i = 0; i < reaction.nodes.size(); ++i)
-      if (touches_[i]) press_[size_t(body_[i])] -= dot(s.f[reaction.nodes[i]], normal);
+    std::fill(momentum_.begin(), momentum_.end(), 0);
+    for (size_t n = 0; n < body_.size(); ++n)
+      momentum_[size_t(body_[n])] += s.m[NodeId(int64_t(n))] * dot(s.v[NodeId(int64_t(n))], normal);
     for (size_t i = 0; i < reaction.nodes.size(); ++i) {
       if (!touches_[i]) continue;
       const NodeId n = reaction.nodes[i];
       const double f_n = dot(s.f[n], normal);
-      touches_[i] = separation == "node" ? f_n < 0 : press_[size_t(body_[i])] > 0;
+      touches_[i] = f_n < 0 || (separation == "rebound" && momentum_[size_t(body_[size_t(n)])] < 0);
       reaction.take_force(s, i, !touches_[i] ? Vec3{} : friction == "stick" ? s.f[n] : f_n * normal, dt);
       if (touches_[i]) reaction.set_velocity(s, n, sliding(s.v[n]));
     }
@@ -72,9 +72,9 @@ struct RigidWall {
 
  private:
   Vec3 sliding(const Vec3& v) const { return friction == "stick" ? Vec3{} : v - dot(v, normal) * normal; }
-  std::vector<char> touches_;   // per reaction.nodes
-  std::vector<int32_t> body_;   // per reaction.nodes
-  std::vector<double> press_;   // N, per body
+  std::vector<char> touches_;     // per reaction.nodes
+  std::vector<int32_t> body_;     // per node
+  std::vector<double> momentum_;  // kg m/s along the normal, per body
 };
 
 }  // namespace bw::csd
