@@ -25,6 +25,7 @@ struct State {
   Field<double, SlotId> V0;      ///< m^3, reference volume
   Field<double, SlotId> volume;  ///< m^3, current
   Field<double, SlotId> omega2;  ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
+  Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress
   Field<double, SlotId> collapsed;  ///< 1: a point has lost most of its volume (element/q1p0.h)
   std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes]
 
@@ -39,6 +40,7 @@ struct State {
     visit("reference_volume", V0, "m^3", none);
     visit("volume", volume, "m^3", none);
     visit("omega2", omega2, "1/s^2", none);
+    visit("viscous_stress", viscous_stress, "Pa", none);
     visit("collapsed", collapsed, "", output);
   }
   /// Makes room: nodal fields n, element fields slots.

@@ -11,7 +11,7 @@ void sum_forces(Model& m, double t, double dt) {
   auto& [mesh, topology, s, ph] = m;
   MeanStress mean{.viscosity = ph.viscosity, .dt = dt};
   if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);    // sec. 2.1
-  ph.energy.viscosity += dt * internal_force(ph.elements, mean, s);  // eqs (1)-(13), (15)
+  ph.energy.viscosity += internal_force(ph.elements, mean, s);  // eqs (1)-(13), (15)
   if (ph.loads) ph.loads->add(mesh, t, s);                           // eqs (15), (18)
 }
 

@@ -28,7 +28,6 @@ double* history_of(State& s, const Elements& el, int body, int block) {
 /// What bulk viscosity does to an element.
 struct Viscous {
   Pack stress;  ///< Pa, added to sigma_m
-  Pack power;   ///< W, spent in the element
   Pack beta;    ///< s, viscosity over stiffness: damping matrix <= beta K
 };
 [[gnu::noinline]] Viscous viscous_stress(const BulkViscosity& c, const Elastic& m, Pack V0, Pack volume, Pack before, double dt) {
@@ -38,7 +37,7 @@ struct Viscous {
   const Pack density = Pack(m.density) * V0 / volume;
   const Pack eta = density * h * (Pack(c.linear * m.sound_speed()) - Pack(c.quadratic * c.quadratic) * h * rate);
   const Pack stress = eta * rate;
-  return {stress, stress * rate * volume, eta / m.volumetric.stiffness(volume / V0)};
+  return {stress, eta / m.volumetric.stiffness(volume / V0)};
 }
 
 /// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega/2:
@@ -48,18 +47,18 @@ Pack damped_omega2(Pack omega2, Pack beta) {
   return omega2 * grown * grown;
 }
 
-/// Forces of one block; returns the power of viscosity.
+/// Forces of one block; returns the work spent in viscosity.
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of, State& s) {
   double* history = history_of<M>(s, el, body, block);
   const int32_t* nodes = el.blocks.nodes_of(block);
   const int used = el.blocks.used[size_t(block)];
-  double power = 0;
+  double work = 0;
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
     const Corners<Pack> x = gather(s.x.data(), nodes + l);
     const Pack V0 = Pack::load(&s.V0[slot]);
-    Viscous viscous{Pack(0), Pack(0), Pack(0)};
+    Viscous viscous{Pack(0), Pack(0)};
     const auto r = internal_force<Pack>(material, x, V0, history + l,
                                         [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); });
     scatter_add(r.f, nodes + l, std::min(used - l, Pack::size), s.f.data());
@@ -67,13 +66,16 @@ template <class M, class Mean>
     Pack omega2 = centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
     if constexpr (Mean::viscous) {
       omega2 = damped_omega2(omega2, viscous.beta);
-      for (int i = 0; i < std::min(used - l, Pack::size); ++i) power += viscous.power[i];
+      const Pack mean = Pack(0.5) * (viscous.stress + Pack::load(&s.viscous_stress[slot]));
+      const Pack change = mean * (r.volume - Pack::load(&s.volume[slot]));
+      for (int i = 0; i < std::min(used - l, Pack::size); ++i) work += change[i];
+      viscous.stress.store(&s.viscous_stress[slot]);
     }
     omega2.store(&s.omega2[slot]);
     r.volume.store(&s.volume[slot]);
     r.collapsed.store(&s.collapsed[slot]);
   }
-  return power;
+  return work;
 }
 
 /// Where the mean stress comes from: U' alone, the usual case; or anything that MeanStress describes.
@@ -97,20 +99,20 @@ struct General {
   }
 };
 
-/// Sum of the blocks' powers, in block order.
+/// Sum of the blocks' viscous work, in block order.
 template <class Mean>
 double all_forces(const Elements& el, const Mean& mean_of, State& s) {
-  std::vector<double> power(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
+  std::vector<double> work(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
   for_coloured_blocks(el.blocks, [&](int block, int body) {
     std::visit(
         [&](const auto& material) {
-          const double p = block_force(el, material, body, block, mean_of, s);
-          if constexpr (Mean::viscous) power[size_t(block)] = p;
+          const double w = block_force(el, material, body, block, mean_of, s);
+          if constexpr (Mean::viscous) work[size_t(block)] = w;
         },
         el.materials[size_t(body)]);
   });
   double sum = 0;
-  for (double p : power) sum += p;
+  for (double w : work) sum += w;
   return sum;
 }
 

@@ -37,7 +37,8 @@ struct MeanStress {
 /// element if a reference volume (or its determinant at a point) is not positive.
 void start(const Mesh& mesh, Elements& elements, State& s);
 
-/// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work rate spent in viscosity [W].
+/// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work spent in viscosity since the last
+/// call [J].
 double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s);
 
 /// Lumped mass of a node [kg]: its share of the elements given, which must ascend, so that it has one value.
