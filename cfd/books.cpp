@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfd/books.h"
 
+#include <algorithm>
+
 #include "common/parallel/loop.h"
 
 namespace bw::cfd {
@@ -12,18 +14,17 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
     const int b = blocks[size_t(n)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
     FluidSums sum;
-    std::visit(
-        [&](const auto& pair) {
-          for (int c = 0; c < cells; ++c) {
-            if (!blocked.empty() && blocked[size_t(c)]) continue;
-            double U[Cons::count], W[Prim::stored];
-            for (int q = 0; q < Cons::count; ++q) sum.U[q] += U[q] = m.state.block(b, q)[c];
-            sum.volume += 1;
-            pair.to_primitive(U, W, m.setup.medium.floors);
-            sum.max_p = std::max(sum.max_p, W[Prim::p]);
-          }
-        },
-        m.setup.medium.mixture);
+    for (int q = 0; q < Cons::count; ++q) {
+      const double* U = m.state.block(b, q);
+      Pack packs(0.0);
+      int c = 0;
+      if (blocked.empty())
+        for (; c + Pack::size <= cells; c += Pack::size) packs += Pack::load(U + c);
+      for (int l = 0; l < Pack::size; ++l) sum.U[q] += packs[l];
+      for (; c < cells; ++c)
+        if (blocked.empty() || !blocked[size_t(c)]) sum.U[q] += U[c];
+    }
+    sum.volume = double(blocked.empty() ? cells : std::count(blocked.begin(), blocked.end(), 0));
     for (double& u : sum.U) u *= volume;
     sum.volume *= volume;
     per_block_[size_t(b)] = sum;
@@ -37,9 +38,14 @@ FluidSums Books::sums(const Model& m) const {
   for (const FluidSums& s : all) {
     for (int q = 0; q < Cons::count; ++q) total.U[q] += s.U[q];
     total.volume += s.volume;
-    total.max_p = std::max(total.max_p, s.max_p);
   }
   return total;
+}
+
+double Books::p_max(const Model& m) const {
+  double p = 0;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) p = std::max(p, m.state.info[size_t(b)].p_max);
+  return m.forest.comm().max(p);
 }
 
 Booked Books::booked(const Model& m) const {

@@ -12,7 +12,6 @@ namespace bw::cfd {
 struct FluidSums {
   double U[Cons::count] = {};   ///< mass 1, mass 2 [kg], momentum [kg m/s], energy [J], volume of material 1 [m^3]
   double volume = 0;            ///< m^3, open cells
-  double max_p = 0;             ///< Pa
 };
 
 class Books {
@@ -21,6 +20,7 @@ class Books {
   void refresh(const Model& m, const std::vector<int>& blocks);
   /// Collective.
   FluidSums sums(const Model& m) const;
+  double p_max(const Model& m) const;  ///< Pa
   Booked booked(const Model& m) const;
 
   Swept swept;                ///< this rank's, since the start

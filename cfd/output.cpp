@@ -163,7 +163,7 @@ void Output::write_row(const Model& m, const Books& books) {
   row.push_back(s.U[Cons::rhoE]);
   row.push_back(stored_energy(m));
   row.push_back(s.volume);
-  row.push_back(s.max_p);
+  row.push_back(p_max_ = books.p_max(m));
   row.push_back(out(0) + out(1));
   for (int d = 0; d < 3; ++d) row.push_back(out(Cons::mom + d));
   row.push_back(out(Cons::rhoE));
@@ -293,7 +293,7 @@ void Output::finish(const Model& m, const Books& books, const std::string& statu
   }
   s.counts.push_back({"cells", double(m.forest.global_cells())});
   s.counts.push_back({"blocks", double(m.forest.global_blocks())});
-  s.values = {{"p_max", last_.max_p}, {"active_share", active_share_}};
+  s.values = {{"p_max", p_max_}, {"active_share", active_share_}};
   if (root_) {
     s.write(case_.run.output.directory + "/fluid_summary.json", timers());
     say("{}: step {}, t = {:.6g} s, {:.2f} Mcell-updates/s in the flow", status, m.state.step, m.state.t, 1e-6 * n / std::max(flow, 1e-9));

@@ -44,11 +44,10 @@ class Output {
   Schedule fields_, rows_;
   Progress progress_;
   double dt_ = 0, t_row_ = -1, t_gauges_ = -1, t_fields_ = -1, active_share_ = 0;
-  double window_updates_ = 0, updates_ = 0;
   std::vector<double> impulse_, p_gauge_;  ///< [gauge] Pa s of overpressure, Pa
   std::vector<double> p_start_;
   FluidSums first_, last_;
-  double released_ = 0;
+  double p_max_ = 0;
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -16,6 +16,7 @@ struct BlockInfo {
   int32_t material = 0;        ///< 1 or 2: every cell holds this material alone; 0: mixed
   int32_t at_rest = 0;         ///< all cells have the same bits and no momentum
   double rate = 0;             ///< max over cells of sum_d (|v_d| + c)/h_d [1/s]
+  double p_max = 0;            ///< Pa, largest of its cells
   double U[Cons::count] = {};  ///< of the block's first cell
 };
 

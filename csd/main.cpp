@@ -30,7 +30,7 @@ int program(const Session& session, int argc, char** argv) {
   }
   Model model = build(cs);
   if (line.check) {
-    say("{}: the case is sound", line.case_file);
+    check(cs, model);
     return exit_ok;
   }
   return run(cs, model, joined.channel.get());

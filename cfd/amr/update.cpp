@@ -12,7 +12,7 @@ namespace {
 
 /// Extremes of a block, lane by lane.
 struct Extremes {
-  Pack rate = Pack(0.0), alpha_min = Pack(2.0), alpha_max = Pack(-1.0);
+  Pack rate = Pack(0.0), p_max = Pack(0.0), alpha_min = Pack(2.0), alpha_max = Pack(-1.0);
 };
 
 /// Lanes at and beyond `left` are neutral.
@@ -34,7 +34,7 @@ class Update {
       Pack U[Cons::count], W[Prim::stored];
       for (int q = 0; q < Cons::count; ++q) U[q] = Pack::load(row[q] + i);
       const int left = shape_.n[0] - i;
-      const Pack p = pair_.to_primitive(U, W, floors_);
+      Pack p = pair_.to_primitive(U, W, floors_);
       const Pack alpha1 = U[Cons::alpha1], alpha2 = Pack(1.0) - alpha1;
       const Mask none_1 = (alpha1 >= Pack(0.0)) & (alpha1 <= Pack(0.0)),
                  none_2 = (alpha2 >= Pack(0.0)) & (alpha2 <= Pack(0.0));
@@ -46,7 +46,7 @@ class Update {
         for (int l = 0; l < std::min(left, Pack::size); ++l) {
           const size_t cell = shape_.at(k, j, i + l);
           if (in_.blocked && in_.blocked[cell])
-            for (Pack* q : {&W[Prim::v], &W[Prim::v_y], &W[Prim::v_z], &W[Prim::c]}) q->set(l, 0.0);
+            for (Pack* q : {&W[Prim::v], &W[Prim::v_y], &W[Prim::v_z], &W[Prim::c], &p}) q->set(l, 0.0);
           else if (!fine[l])
             mend_cell(row, i + l, cell, k, j, W, l, marks, booked, result);
         }
@@ -59,6 +59,7 @@ class Update {
         extremes.alpha_max = max(extremes.alpha_max, alpha1);
       }
       extremes.rate = max(extremes.rate, first_lanes(rate(&W[Prim::v], W[Prim::c]), left, 0.0));
+      extremes.p_max = max(extremes.p_max, first_lanes(p, left, 0.0));
     }
   }
 
@@ -81,6 +82,7 @@ class Update {
             c.set(l, all_W[Prim::c][l]);
           }
       extremes.rate = max(extremes.rate, first_lanes(rate(&W[GasPrim::v], c), left, 0.0));
+      extremes.p_max = max(extremes.p_max, first_lanes(p, left, 0.0));
     }
   }
 
@@ -181,9 +183,10 @@ class Update {
 /// One material, the same bits everywhere, no momentum?
 void describe_block(const BlockShape& s, const double* U, bool whole, const Extremes& e, BlockInfo& info) {
   double low = 2, high = -1;
-  info.rate = 0;
+  info.rate = info.p_max = 0;
   for (int l = 0; l < Pack::size; ++l) {
     info.rate = std::max(info.rate, e.rate[l]);
+    info.p_max = std::max(info.p_max, e.p_max[l]);
     low = std::min(low, e.alpha_min[l]), high = std::max(high, e.alpha_max[l]);
   }
   info.material = low == 1 && high == 1 ? 1 : low == 0 && high == 0 ? 2 : 0;
