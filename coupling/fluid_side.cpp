@@ -98,7 +98,7 @@ void FluidSide::send(const Loads& loads) {
   if (!channel_.leader()) return;
   const LoadBlock load = pack(loads, step_);
   if (const Verdict fault = check_load(load, step_)) channel_.fail(fault->code, fault->text);
-  if (const Verdict fault = check_values(loads, surface_.quads.size())) channel_.fail(fault->code, fault->text);
+  if (const Verdict fault = check_values(loads, surface_)) channel_.fail(fault->code, fault->text);
   channel_.send(tag_load, &load, sizeof load);
   channel_.send(tag_p, std::span<const double>(loads.p));
   if (!loads.traction.empty()) channel_.send(tag_traction, std::span<const Vec3>(loads.traction));

@@ -265,20 +265,30 @@ Verdict check_load(const LoadBlock& load, const StepBlock& asked) {
   return {};
 }
 
-Verdict check_values(const Loads& loads, size_t n_faces) {
-  if (loads.p.size() != n_faces)
-    return Fault{exit_malformed, fmt::format("LOAD: {} pressures for {} faces", loads.p.size(), n_faces)};
-  if ((!loads.traction.empty() && loads.traction.size() != n_faces) ||
-      (!loads.impedance.empty() && loads.impedance.size() != n_faces))
+Verdict check_values(const Loads& loads, const WetSurface& surface) {
+  const size_t n = surface.quads.size();
+  if (loads.p.size() != n)
+    return Fault{exit_malformed, fmt::format("LOAD: {} pressures for {} faces", loads.p.size(), n)};
+  if ((!loads.traction.empty() && loads.traction.size() != n) ||
+      (!loads.impedance.empty() && loads.impedance.size() != n))
     return Fault{exit_malformed, fmt::format("LOAD: {} tractions, {} impedances for {} faces", loads.traction.size(),
-                                             loads.impedance.size(), n_faces)};
-  for (size_t f = 0; f < n_faces; ++f)
-    if (!std::isfinite(loads.p[f]))
-      return Fault{exit_bad_value, fmt::format("LOAD: P of face {} is {}", f, loads.p[f])};
+                                             loads.impedance.size(), n)};
+  const auto bad = [&](const char* name, size_t f, const std::string& value) {
+    const Vec3 x = face_mean(surface.x, surface.quads[f]);
+    return Fault{
+        exit_bad_value,
+        fmt::format("LOAD: {} of face {} is {}; its id is {}, it lies at ({:.6g}, {:.6g}, {:.6g}) m with {:.3g} m^2",
+                    name, f, value, surface.face_id[f], x.x, x.y, x.z, norm(area_vector(surface.x, surface.quads[f])))};
+  };
+  for (size_t f = 0; f < n; ++f)
+    if (!std::isfinite(loads.p[f])) return bad("P", f, fmt::format("{}", loads.p[f]));
   for (size_t f = 0; f < loads.impedance.size(); ++f)
     if (!(loads.impedance[f] >= 0) || !std::isfinite(loads.impedance[f]))
-      return Fault{exit_bad_value, fmt::format("LOAD: impedance of face {} is {}", f, loads.impedance[f])};
-  return check_finite("LOAD: traction", "face", loads.traction);
+      return bad("impedance", f, fmt::format("{}", loads.impedance[f]));
+  for (size_t f = 0; f < loads.traction.size(); ++f)
+    if (const Vec3& t = loads.traction[f]; !is_finite(t))
+      return bad("traction", f, fmt::format("({}, {}, {})", t.x, t.y, t.z));
+  return {};
 }
 
 }  // namespace bw::coupling

@@ -134,6 +134,7 @@ uint64_t connectivity_hash(const WetSurface& surface);
 LoadBlock pack(const Loads& loads, const StepBlock& asked);
 FluidTotals totals_of(const LoadBlock& load);
 Verdict check_load(const LoadBlock& load, const StepBlock& asked);
-Verdict check_values(const Loads& loads, size_t n_faces);
+/// Lengths and finite numbers; the text names the face, its id, place and area.
+Verdict check_values(const Loads& loads, const WetSurface& surface);
 
 }  // namespace bw::coupling

@@ -87,7 +87,7 @@ const Loads& SolidSide::receive() {
       channel_.receive(tag_traction, "LOAD: traction", loads_.traction.data(), n * sizeof(Vec3));
     if (load.flags & load_impedance)
       channel_.receive(tag_impedance, "LOAD: impedance", loads_.impedance.data(), n * sizeof(double));
-    if (const Verdict fault = check_values(loads_, n)) channel_.fail(fault->code, fault->text);
+    if (const Verdict fault = check_values(loads_, sent_)) channel_.fail(fault->code, fault->text);
     waited_ = channel_.seconds_waited() - waited_before;
   }
   channel_.share(&load, sizeof load);

@@ -188,15 +188,21 @@ TEST(Wire, LoadTotalsSurviveTheTrip) {
 }
 
 TEST(Wire, LoadValues) {
+  const WetSurface s = square();
   Loads loads;
+  loads.p = {1};
+  EXPECT_FALSE(check_values(loads, s));
   loads.p = {1, 2};
-  EXPECT_FALSE(check_values(loads, 2));
-  EXPECT_EQ(check_values(loads, 3)->code, exit_malformed);
-  loads.traction = {{0, 0, 0}, {0, std::nan(""), 0}};
-  EXPECT_EQ(check_values(loads, 2)->text, "LOAD: traction of face 1 is (0, nan, 0)");
+  EXPECT_EQ(check_values(loads, s)->code, exit_malformed);
+  loads.p = {std::nan("")};
+  EXPECT_EQ(check_values(loads, s)->text,
+            "LOAD: P of face 0 is nan; its id is 3, it lies at (0.5, 0.5, 0) m with 1 m^2");
+  loads.p = {1};
+  loads.traction = {{0, std::nan(""), 0}};
+  EXPECT_EQ(check_values(loads, s)->code, exit_bad_value);
   loads.traction.clear();
-  loads.impedance = {1, -1};
-  EXPECT_EQ(check_values(loads, 2)->code, exit_bad_value);
+  loads.impedance = {-1};
+  EXPECT_EQ(check_values(loads, s)->code, exit_bad_value);
 }
 
 }  // namespace
