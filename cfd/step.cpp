@@ -15,7 +15,6 @@ void follow_walls(Model& m, Sweep& sweep, Books& books) {
   Timed timed("covered and uncovered cells");
   std::vector<int> changed;
   sweep.refill(m.state, changed, books.swept);
-  inspect(m, changed);
   books.refresh(m, changed);
 }
 

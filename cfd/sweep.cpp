@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "cfd/embed/refill.h"
 #include "common/parallel/loop.h"
 
 namespace bw::cfd {
@@ -179,62 +181,78 @@ WallExchange Sweep::wall_exchange() const {
 
 void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
   const Changes& changes = walls_->changes();
+  if (changes.covered.empty() && changes.fresh.empty()) return;
   const BlockShape& shape = forest_.shape();
-  std::map<std::array<int, 3>, int> block_at;
-  for (int b = 0; b < forest_.local_blocks(); ++b) block_at[forest_.place(b)] = b;
-  const auto block_of = [&](const Index3& c) {
-    const auto found = block_at.find({c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]});
-    return found == block_at.end() ? -1 : found->second;
+  std::map<std::array<int, 3>, int> block_at;  // other ranks' too
+  for (int b = 0; b < forest_.local_blocks() + forest_.ghost_blocks(); ++b) block_at.emplace(forest_.place(b), b);
+  struct Place {
+    int block;
+    size_t cell;
   };
-  const auto place_in = [&](int b, const Index3& c) {
-    const Index3 first = forest_.first_cell(b);
-    return shape.at(c[2] - first[2], c[1] - first[1], c[0] - first[0]);
+  const auto place_of = [&](const Index3& c) {
+    const std::array<int, 3> at{c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]};
+    const int b = block_at.at(at);
+    return Place{b, shape.at(c[2] - at[2] * shape.n[2], c[1] - at[1] * shape.n[1], c[0] - at[0] * shape.n[0])};
+  };
+  const auto is_local = [&](const Index3& c) {
+    const auto found = block_at.find({c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]});
+    return found != block_at.end() && found->second < forest_.local_blocks();
   };
   std::set<int> touched;
-  const auto take = [&](int b, const Index3& c) {
-    for (int q = 0; q < Cons::count; ++q) swept.lost[q] += s.block(b, q)[place_in(b, c)] * shape.cell_volume();
+  const auto take = [&](const Index3& c) {
+    const Place at = place_of(c);
+    for (int q = 0; q < Cons::count; ++q) swept.lost[q] += s.block(at.block, q)[at.cell] * shape.cell_volume();
     ++swept.covered;
-    touched.insert(b);
+    touched.insert(at.block);
   };
   for (const Index3& c : changes.covered)
-    if (const int b = block_of(c); b >= 0) take(b, c);
+    if (is_local(c)) take(c);
   for (const FreshCell& f : changes.fresh)
-    if (const int b = block_of(f.cell); b >= 0 && f.held_fluid) take(b, f.cell);
+    if (f.held_fluid && is_local(f.cell)) take(f.cell);
+  const CellReader read = [&](const Index3& c, double(&U)[Cons::count]) {
+    const Place at = place_of(c);
+    for (int q = 0; q < Cons::count; ++q) U[q] = s.block(at.block, q)[at.cell];
+  };
   for (int layer = 1; layer <= changes.layers; ++layer) {
-    std::map<int, std::vector<Index3>> cells;  // by block
-    for (const FreshCell& f : changes.fresh)
-      if (const int b = block_of(f.cell); f.layer == layer && b >= 0) cells[b].push_back(f.cell);
-    std::vector<int> blocks;
-    for (const auto& [b, list] : cells) blocks.push_back(b), touched.insert(b);
     exchange(s);
-    const Gather gather(forest_, s, setup_.boundary, setup_.medium);
-    std::vector<std::vector<std::array<double, Cons::count>>> fresh(blocks.size());
-    std::vector<std::vector<uint8_t>> found(blocks.size());
-    parallel_for_dynamic(int64_t(blocks.size()), spaces_, [&](int64_t i, Space& space) {
-      const int b = blocks[size_t(i)];
-      const Index3 first = forest_.first_cell(b);
-      gather.fill(b, space.patch, true);
-      space.cuts.gather(walls_->map(), walls_->rules(), first);
-      for (const Index3& c : cells[b]) {
-        double U[Cons::count];
-        const bool ok = space.cut_mixed->refill(space.patch, space.cuts, {c[0] - first[0], c[1] - first[1], c[2] - first[2]}, U);
-        found[size_t(i)].push_back(ok);
-        fresh[size_t(i)].push_back(std::to_array(U));
-      }
+    struct Filled {
+      Index3 cell;
+      double U[Cons::count];
+      bool found;
+    };
+    std::vector<Filled> filled;
+    for (const FreshCell& f : changes.fresh)
+      if (f.layer == layer && is_local(f.cell)) filled.push_back({f.cell, {}, false});
+    parallel_for(int64_t(filled.size()), [&](int64_t i) {
+      Filled& f = filled[size_t(i)];
+      f.found = cfd::refill(walls_->map(), f.cell, setup_.medium.mixture, setup_.medium.floors, read, f.U);
     });
-    for (size_t i = 0; i < blocks.size(); ++i)
-      for (size_t n = 0; n < fresh[i].size(); ++n) {
-        if (!found[i][n]) continue;
-        const size_t cell = place_in(blocks[i], cells[blocks[i]][n]);
-        for (int q = 0; q < Cons::count; ++q) {
-          s.block(blocks[i], q)[cell] = fresh[i][n][size_t(q)];
-          swept.made[q] += fresh[i][n][size_t(q)] * shape.cell_volume();
-        }
-        ++swept.fresh;
+    for (const Filled& f : filled) {
+      if (!f.found) continue;
+      const Place at = place_of(f.cell);
+      for (int q = 0; q < Cons::count; ++q) {
+        s.block(at.block, q)[at.cell] = f.U[q];
+        swept.made[q] += f.U[q] * shape.cell_volume();
       }
+      ++swept.fresh;
+      touched.insert(at.block);
+      note(f.U, s.info[size_t(at.block)]);
+    }
     walls_->accept(layer);
   }
   changed.insert(changed.end(), touched.begin(), touched.end());
+}
+
+/// One more cell of a block: its bounds grow with it.
+void Sweep::note(const double (&U)[Cons::count], BlockInfo& info) const {
+  double W[Prim::stored];
+  std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
+  double rate = 0;
+  for (int d = 0; d < 3; ++d)
+    if (forest_.shape().used[size_t(d)]) rate += (std::abs(W[Prim::v + d]) + W[Prim::c]) / forest_.shape().h[d];
+  info.rate = std::max(info.rate, rate);
+  info.at_rest = 0;
+  if (U[Cons::alpha1] != (info.material == 1 ? 1.0 : 0.0)) info.material = 0;
 }
 
 void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_order) {

@@ -57,7 +57,7 @@ class Sweep {
   WallExchange wall_exchange() const;
   /// Loads of all probes from the state as it is (advance() makes those of mid-step).
   void measure_loads(const State& s);
-  /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks to inspect.
+  /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks whose sums change.
   void refill(State& s, std::vector<int>& changed, Swept& swept);
 
  private:
@@ -84,6 +84,7 @@ class Sweep {
   std::vector<int> around_marked() const;
   bool burns(int block) const;
   void count_bad();
+  void note(const double (&U)[Cons::count], BlockInfo& info) const;
 
   const Forest& forest_;
   const FlowSetup& setup_;

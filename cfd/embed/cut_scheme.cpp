@@ -2,7 +2,6 @@
 #include "cfd/embed/cut_scheme.h"
 
 #include "cfd/embed/cut_kernel.h"
-#include "cfd/embed/refill.h"
 
 namespace bw::cfd {
 namespace {
@@ -22,24 +21,6 @@ class Scheme final : public CutScheme {
   }
   WallLoad load(const Index3& cell, const Vec3& x, const Vec3& n, const Vec3& v) override {
     return kernel_.load(cell, x, n, v);
-  }
-  bool refill(const Patch& patch, const PatchCuts& cuts, const Index3& cell, double (&U)[Cons::count]) const override {
-    typename WallGas<Eos>::State w;
-    if (!cfd::refill(patch, cuts, flow_, eos_, cell, w)) return false;
-    if constexpr (Eos::Flow::mixed) {
-      double W[Prim::stored] = {};
-      for (int q = 0; q < Prim::count; ++q) W[q] = w[size_t(q)];
-      eos_.mix.to_conserved(W, U);
-    } else {
-      for (double& u : U) u = 0;
-      const double rho = w[GasPrim::rho];
-      const Vec3 v{w[GasPrim::v], w[GasPrim::v_y], w[GasPrim::v_z]};
-      U[flow_.rho_row] = rho;
-      for (int d = 0; d < 3; ++d) U[Cons::mom + d] = rho * v[d];
-      U[Cons::rhoE] = flow_.over_G * w[GasPrim::p] + flow_.Pi + 0.5 * rho * dot(v, v);
-      U[Cons::alpha1] = flow_.rho_row == Cons::arho1 ? 1 : 0;
-    }
-    return true;
   }
 
  private:

@@ -40,14 +40,11 @@ class CutScheme {
   /// Pressure at x on a wall with unit normal n into the fluid and velocity v, dt/2 after the patch's time, seen from
   /// the open cell (i, j, k) of the block: second order from its own side, then the half-Riemann wall.
   virtual WallLoad load(const Index3& cell, const Vec3& x, const Vec3& n, const Vec3& v) = 0;
-  /// Conserved state of a fresh cell of the block from its valid neighbours (cfd/embed/refill.h). false: it has none.
-  virtual bool refill(const Patch& patch, const PatchCuts& cuts, const Index3& cell,
-                      double (&U)[Cons::count]) const = 0;
 };
 
 /// For patches of MixedFlow; also of one material, if all rows are filled. The mixture must outlive it.
 std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape);
-/// For patches of one gas. refill() fills that gas alone.
+/// For patches of one gas.
 std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape);
 
 }  // namespace bw::cfd

@@ -15,7 +15,7 @@ std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::
 
 struct FreshCell {
   Index3 cell;
-  int layer;        ///< 1: has a connected neighbour with valid fluid; 2: a neighbour of layer 1 ...
+  int layer;                ///< 1: has a connected neighbour with valid fluid; 2: a neighbour of layer 1 ...
   bool held_fluid = false;  ///< before the motion: the wall passed over it
 };
 struct Changes {

@@ -123,7 +123,7 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
         const CutMap::Place& x = place[0][size_t(i)];
         const uint8_t f = map.flags_at(tile + x.tile, cell + x.cell);
         raw_[size_t(first + i)] = f;
-        bits_[size_t(first + i)] = uint16_t((f & cell_blocked ? is_blocked : 0) | (f & cell_fresh ? is_fresh : 0));
+        bits_[size_t(first + i)] = uint16_t(f & cell_blocked ? is_blocked : 0);
         if (f >= cell_cut) cut_cells_.push_back({i - g_[0], j - g_[1], k - g_[2]});
       }
     }

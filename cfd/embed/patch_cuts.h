@@ -26,7 +26,6 @@ class PatchCuts {
   int step(int d) const { return step_[d]; }
   int size() const { return e_[0] * e_[1] * e_[2]; }
   bool blocked(int c) const { return bits_[size_t(c)] & is_blocked; }
-  bool fresh(int c) const { return bits_[size_t(c)] & is_fresh; }
   /// Is the link of the open cell c on this side (0 lower, 1 upper) cut? Every link to a blocked neighbour is.
   bool cut(int c, int d, int side) const { return bits_[size_t(c)] & (1u << (2 * d + side)); }
   bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts); }
@@ -37,7 +36,7 @@ class PatchCuts {
   const BlockShape& shape() const { return shape_; }
 
  private:
-  static constexpr uint16_t all_cuts = 63, is_blocked = 64, is_fresh = 128;
+  static constexpr uint16_t all_cuts = 63, is_blocked = 64;
   void set_wall(int c, int d, int side, const WallSide& w);
   void close_orphan(int d, int c);
   void gather_links(const CutMap& map, int d, const Index3& c, int at);

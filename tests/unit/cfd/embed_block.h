@@ -25,6 +25,11 @@ struct OneBlock {
     u.resize(size_t(shape.cells()));
   }
 
+  CellReader reader() const {
+    return [this](const Index3& c, double(&U)[Cons::count]) {
+      std::copy_n(u[shape.at(c[2], c[1], c[0])].begin(), int(Cons::count), U);
+    };
+  }
   static BlockShape shape_of(const Lattice& g) {
     BlockShape s;
     for (size_t d = 0; d < 3; ++d) s.n[d] = g.n[d], s.used[d] = g.n[d] > 1;
@@ -66,15 +71,13 @@ struct OneBlock {
     Changes changes = compare(map, now, swept_cells(surface, before, lattice));
     for (const Index3& c : changes.covered) removed += density(c);
     for (int layer = 1; layer <= changes.layers; ++layer) {
-      cuts.gather(now, rules, {});
-      fill_patch();
       for (const FreshCell& f : changes.fresh)
         if (f.layer == layer) {
           const auto& c = f.cell;
           if (!map.blocked(c)) removed += density(c);
-          typename WallGas<Eos>::State w;
-          EXPECT_TRUE(refill(patch, cuts, flow, Eos{mix}, c, w));
-          set(c[2], c[1], c[0], w);
+          double U[Cons::count];
+          EXPECT_TRUE(cfd::refill(now, c, mixture, {}, reader(), U));
+          std::copy_n(U, int(Cons::count), u[shape.at(c[2], c[1], c[0])].begin());
           added += density(c);
           ++refilled;
         }
@@ -164,6 +167,7 @@ struct OneBlock {
 
   Lattice lattice;
   Mix mix;
+  Mixture mixture{mix};
   MixedFlow flow;
   BlockShape shape;
   GhostRules rules{};

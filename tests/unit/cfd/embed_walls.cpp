@@ -49,12 +49,10 @@ struct Windows {
   }
   void refill() {
     for (int layer = 1; layer <= walls.changes().layers; ++layer) {
-      block.cuts.gather(walls.map(), walls.rules(), {});
-      block.fill_patch();
       for (const FreshCell& f : walls.changes().fresh) {
         if (f.layer != layer) continue;
         double U[Cons::count];
-        ASSERT_TRUE(scheme->refill(block.patch, block.cuts, f.cell, U));
+        ASSERT_TRUE(cfd::refill(walls.map(), f.cell, mixture, {}, block.reader(), U));
         std::copy_n(U, int(Cons::count), block.u[block.shape.at(f.cell[2], f.cell[1], f.cell[0])].begin());
         ++refilled;
       }
