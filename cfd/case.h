@@ -27,10 +27,11 @@ struct StateCase {
   void describe(K& k) {
     k.required("material", material, "name of a [[fluid.material]]");
     k.optional("unburnt", unburnt, "explosive before detonation: its density is that of its JWL set");
-    if (!unburnt || k.is_manual()) {
+    if (k.is_manual())
       k.optional("density", density, dim::density, "needed unless unburnt");
-      k.expect(density > 0, "density", "a positive density");
-    }
+    else if (!unburnt)
+      k.required("density", density, dim::density, "needed unless unburnt");
+    k.expect(unburnt || density > 0, "density", "a positive density");
     k.required("pressure", pressure, dim::pressure, "absolute pressure");
     k.optional("velocity", velocity, dim::velocity, "velocity");
     place = k.where("material");
