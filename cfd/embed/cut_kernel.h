@@ -197,21 +197,24 @@ class CutKernel {
     for (int q = 0; q < n; ++q) L[q] = a.half[size_t(q)] + 0.5 * a.slope[d][q];
     const Predicted& b = predicted(high);
     for (int q = 0; q < n; ++q) R[q] = b.half[size_t(q)] - 0.5 * b.slope[d][q];
-    const double* c = patch_->row(Prim::c, 0, 0);
     double stored = 0;
     if (Flow::mixed && patch_->burns) {
       const double* z = patch_->row(Prim::stored_energy, 0, 0);
       stored = 0.5 * (z[low.p] + z[high.p]);
     }
-    return solve(L, R, c[low.p], c[high.p], d, stored);
+    return solve(L, R, sound(low), sound(high), d, stored);
   }
 
-  Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], double c_L, double c_R, int d,
-             double stored) const {
+  Sound<double> sound(Cell x) const {
+    return {patch_->row(Prim::c, 0, 0)[x.p], patch_->row(Prim::arho1, 0, 0)[x.p] + patch_->row(Prim::arho2, 0, 0)[x.p]};
+  }
+
+  Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], const Sound<double>& sound_L,
+             const Sound<double>& sound_R, int d, double stored) const {
     Face f;
-    f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, c_L, c_R, f.F)
-                        : d == 1 ? flow_->template flux<1>(L, R, c_L, c_R, f.F)
-                                 : flow_->template flux<2>(L, R, c_L, c_R, f.F));
+    f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, sound_L, sound_R, f.F)
+                        : d == 1 ? flow_->template flux<1>(L, R, sound_L, sound_R, f.F)
+                                 : flow_->template flux<2>(L, R, sound_L, sound_R, f.F));
     if constexpr (Flow::mixed) f.F[Cons::rhoE] += f.F[Cons::arho1] * stored;
     for (double& F : f.F) F *= lambda_[d];
     return f;
@@ -253,9 +256,9 @@ class CutKernel {
     }
     double beyond[n];
     for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
-    const double c_in = patch_->row(Prim::c, 0, 0)[x.p], c_wall = std::sqrt(star.rho_c2 / Gas::rho(star.w));
+    const Sound<double> in = sound(x), wall{std::sqrt(star.rho_c2 / Gas::rho(star.w)), Gas::rho(star.w)};
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
-    const Face f = side ? solve(inner, beyond, c_in, c_wall, d, stored) : solve(beyond, inner, c_wall, c_in, d, stored);
+    const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = out * shape_.cell_volume();
     for (int q = 0; q < Gas::densities; ++q) exchange_->mass += volume * f.F[q];
     for (int e = 0; e < 3; ++e) exchange_->momentum[e] += volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];

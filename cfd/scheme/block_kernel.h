@@ -120,21 +120,30 @@ class BlockKernel {
   /// What a row of faces is solved from; a copy on the stack, which stores through pointers can't change.
   struct Faces {
     const double *low, *high, *c_low, *c_high, *z_low,
-        *z_high;  ///< upper states of the cells before, lower of the cells at i
-    ptrdiff_t pitch;
+        *z_high;                           ///< upper states of the cells before, lower of the cells at i
+    const double *arho1_low, *arho1_high;  ///< of the cells; arho2 lies one variable further
+    ptrdiff_t pitch, variable;
     T lambda;
     Flow flow;
+    Sound<T> sound(const double* c, const double* arho1, int i) const {
+      if constexpr (!Flow::mixed) return {Lane<T>::load(c + i), T(0)};
+      return {Lane<T>::load(c + i), Lane<T>::load(arho1 + i) + Lane<T>::load(arho1 + variable + i)};
+    }
   };
   Faces faces_of(int axis, Aligned<double>& low, int shift, ptrdiff_t step, int k, int j) {
     const double* c = patch_->row(Prim::c, k, j);
     const double* z = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, k, j) : nullptr;
+    const double* arho1 = patch_->row(Prim::arho1, k, j);
     return {face(low, 0) - shift,
             face(minus_[axis], 0),
             c - step,
             c,
             z ? z - step : nullptr,
             z,
+            arho1 - step,
+            arho1,
             pitch_,
+            patch_->stride_variable(),
             T(lambda_[axis]),
             *flow_};
   }
@@ -146,7 +155,8 @@ class BlockKernel {
       L[q] = Lane<T>::load(f.low + q * f.pitch + i);
       R[q] = Lane<T>::load(f.high + q * f.pitch + i);
     }
-    const T v_face = f.flow.template flux<axis>(L, R, Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i), F);
+    const T v_face =
+        f.flow.template flux<axis>(L, R, f.sound(f.c_low, f.arho1_low, i), f.sound(f.c_high, f.arho1_high, i), F);
     if constexpr (Flow::mixed)
       if (f.z_low)
         F[Cons::rhoE] += F[Cons::arho1] * (T(0.5) * (Lane<T>::load(f.z_low + i) + Lane<T>::load(f.z_high + i)));

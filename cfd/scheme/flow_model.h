@@ -20,8 +20,8 @@ struct MixedFlow {
     half_step(W, slope, k, rho_c2, dPi);
   }
   template <int axis, class T>
-  T flux(const T (&L)[n], const T (&R)[n], T c_L, T c_R, T (&F)[n_flux]) const {
-    return hllc<axis>(L, R, c_L, c_R, closure, F);
+  T flux(const T (&L)[n], const T (&R)[n], const Sound<T>& sound_L, const Sound<T>& sound_R, T (&F)[n_flux]) const {
+    return hllc<axis>(L, R, sound_L, sound_R, closure, F);
   }
 };
 
@@ -39,8 +39,8 @@ struct GasFlow {
     half_step_gas(W, slope, k, rho_c2);
   }
   template <int axis, class T>
-  T flux(const T (&L)[n], const T (&R)[n], T c_L, T c_R, T (&F)[n_flux]) const {
-    hllc_gas<axis>(L, R, c_L, c_R, over_G, Pi, F);
+  T flux(const T (&L)[n], const T (&R)[n], const Sound<T>& sound_L, const Sound<T>& sound_R, T (&F)[n_flux]) const {
+    hllc_gas<axis>(L, R, sound_L.c, sound_R.c, over_G, Pi, F);
     return T(0);
   }
 };

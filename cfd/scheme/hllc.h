@@ -14,11 +14,19 @@ struct Waves {
   T v;         ///< normal velocity at the face: the contact's, or the side's own where the flow is supersonic
   T p;         ///< pressure at the face
   T compress;  ///< rho_f/rho of the upwind side
-  T work;      ///< (E_f - compress E)/rho: energy per mass gained between the side and the star state
+  T work;      ///< E_f - compress E: energy per volume gained between the side and the star state
 };
+/// rho and c belong to the cell: the strength of its waves, rho c, has to go with its stiffness rho c^2. In a cell that
+/// holds a trace of air in dense explosive, a density taken from the face may be a thousand times lighter, and its
+/// noise would grow.
 template <class T>
 struct Side {
   T rho, v, p, c;
+};
+/// What a face needs of the cell on one side besides the state at the face.
+template <class T>
+struct Sound {
+  T c, rho;
 };
 
 /// from_left is set to the mask "upwind is left". Davis' wave speeds with the cells' sound speeds.
@@ -34,22 +42,21 @@ Waves<T> waves(const Side<T>& L, const Side<T>& R, M& from_left) {
   const T outside = select(from_left, S, -S);  // >= 0: the whole fan lies on the other side of the face
   const auto supersonic = outside >= T(0);
   const T compress = (S - v) / (S - v_star);
-  // Toro 10.39: E* = compress (E + rho (v* - v)(v* + p/(rho (S - v))))
-  const T work = compress * (v_star - v) * (v_star + p / m);
+  const T work = (p_star * v_star - p * v) / (S - v_star);  // Toro 10.39 without the density
   return {select(supersonic, v, v_star), select(supersonic, p, p_star), select(supersonic, T(1), compress),
           select(supersonic, T(0), work)};
 }
 
 /// Flux of two materials through a face normal to `axis`; returns the face velocity that the alpha equation needs:
 /// d alpha/dt = -(F[alpha1]_+ - F[alpha1]_-)/h + alpha (v_f+ - v_f-)/h.
-/// L, R: Prim states at the face; c_L, c_R: sound speeds of the two cells.
+/// L, R: Prim states at the face.
 template <int axis, class T>
-T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], T c_L, T c_R, const Closure& closure,
-       T (&F)[Cons::count]) {
+T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sound_L, const Sound<T>& sound_R,
+       const Closure& closure, T (&F)[Cons::count]) {
   constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
-  decltype(c_L >= c_R) left;
-  const Waves<T> w = waves<T>({L[Prim::arho1] + L[Prim::arho2], L[n], L[Prim::p], c_L},
-                              {R[Prim::arho1] + R[Prim::arho2], R[n], R[Prim::p], c_R}, left);
+  decltype(L[0] >= R[0]) left;
+  const Waves<T> w =
+      waves<T>({sound_L.rho, L[n], L[Prim::p], sound_L.c}, {sound_R.rho, R[n], R[Prim::p], sound_R.c}, left);
   T q[Prim::count];
   for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
   const T rho = q[Prim::arho1] + q[Prim::arho2];
@@ -62,7 +69,7 @@ T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], T c_L, T c_R, const
   F[Cons::mom + axis] = mass * w.v + w.p;
   F[Cons::mom + (axis + 1) % 3] = mass * q[t1];
   F[Cons::mom + (axis + 2) % 3] = mass * q[t2];
-  F[Cons::rhoE] = E * flow + rho * w.work * w.v + w.p * w.v;
+  F[Cons::rhoE] = E * flow + (w.work + w.p) * w.v;
   F[Cons::alpha1] = q[Prim::alpha1] * w.v;
   return w.v;
 }
@@ -88,7 +95,7 @@ void hllc_gas(const T (&L)[GasPrim::count], const T (&R)[GasPrim::count], T c_L,
   F[GasCons::mom + axis] = F[GasCons::rho] * w.v + w.p;
   F[GasCons::mom + (axis + 1) % 3] = F[GasCons::rho] * q[t1];
   F[GasCons::mom + (axis + 2) % 3] = F[GasCons::rho] * q[t2];
-  F[GasCons::rhoE] = E * flow + q[GasPrim::rho] * w.work * w.v + w.p * w.v;
+  F[GasCons::rhoE] = E * flow + (w.work + w.p) * w.v;
 }
 
 }  // namespace bw::cfd
