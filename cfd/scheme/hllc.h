@@ -16,9 +16,7 @@ struct Waves {
   T compress;  ///< rho_f/rho of the upwind side
   T work;      ///< E_f - compress E: energy per volume gained between the side and the star state
 };
-/// rho and c belong to the cell: the strength of its waves, rho c, has to go with its stiffness rho c^2. In a cell that
-/// holds a trace of air in dense explosive, a density taken from the face may be a thousand times lighter, and its
-/// noise would grow.
+/// c belongs to the cell; rho to the face, but see strength().
 template <class T>
 struct Side {
   T rho, v, p, c;
@@ -28,6 +26,14 @@ template <class T>
 struct Sound {
   T c, rho;
 };
+
+/// Density that sets the strength of a side's waves, rho c. It has to go with the stiffness rho c^2 of its cell: in a
+/// cell with some air in dense explosive the face may be a thousand times lighter than the mean, and any noise would
+/// grow.
+template <class T>
+T strength(T rho_face, const Sound<T>& cell) {
+  return max(rho_face, T(0.5) * cell.rho);
+}
 
 /// from_left is set to the mask "upwind is left". Davis' wave speeds with the cells' sound speeds.
 template <class T, class M>
@@ -55,8 +61,8 @@ T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sou
        const Closure& closure, T (&F)[Cons::count]) {
   constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
   decltype(L[0] >= R[0]) left;
-  const Waves<T> w =
-      waves<T>({sound_L.rho, L[n], L[Prim::p], sound_L.c}, {sound_R.rho, R[n], R[Prim::p], sound_R.c}, left);
+  const Waves<T> w = waves<T>({strength(L[Prim::arho1] + L[Prim::arho2], sound_L), L[n], L[Prim::p], sound_L.c},
+                              {strength(R[Prim::arho1] + R[Prim::arho2], sound_R), R[n], R[Prim::p], sound_R.c}, left);
   T q[Prim::count];
   for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
   const T rho = q[Prim::arho1] + q[Prim::arho2];
