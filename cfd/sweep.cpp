@@ -12,6 +12,19 @@
 
 namespace bw::cfd {
 
+namespace {
+
+/// May a fresh cell begin with this?
+bool usable(const Medium& medium, const double (&U)[Cons::count]) {
+  double W[Prim::stored];
+  const double p = std::visit([&](const auto& pair) { return pair.to_primitive(U, W, medium.floors); }, medium.mixture);
+  bool finite = std::isfinite(p) && std::isfinite(W[Prim::c]);
+  for (double u : U) finite = finite && std::isfinite(u);
+  return finite && U[Cons::arho1] >= 0 && U[Cons::arho2] >= 0 && U[Cons::arho1] + U[Cons::arho2] >= medium.floors.rho;
+}
+
+}  // namespace
+
 Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     : forest_(forest),
       setup_(setup),
@@ -225,7 +238,7 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
       if (f.layer == layer && is_local(f.cell)) filled.push_back({f.cell, {}, false});
     parallel_for(int64_t(filled.size()), [&](int64_t i) {
       Filled& f = filled[size_t(i)];
-      f.found = cfd::refill(walls_->map(), f.cell, setup_.medium.mixture, setup_.medium.floors, read, f.U);
+      f.found = cfd::refill(walls_->map(), f.cell, setup_.medium.mixture, setup_.medium.floors, read, f.U) && usable(setup_.medium, f.U);
     });
     for (const Filled& f : filled) {
       if (!f.found) continue;
