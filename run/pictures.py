@@ -161,22 +161,23 @@ def flow_picture(directory, out, axis, frames):
     window = extent
     if solids:
         reach = fields.Solid(solids[-1][1]).points
-        low, high = reach.min(axis=0) - 0.35, reach.max(axis=0) + 0.35
+        low, high = reach.min(axis=0) - 0.2, reach.max(axis=0) + 0.2
         window = [max(low[horizontal], extent[0]), min(high[horizontal], extent[1]), max(low[axis], extent[2]), min(high[axis], extent[3])]
     aspect = (window[1] - window[0]) / (window[3] - window[2])
     rows = [name for name in (pressure_name, density_name) if name]
-    figure, axes = plt.subplots(len(rows), len(flows), figsize=(len(flows) * max(2.0, 5.2 * aspect) + 1, 5.4 * len(rows)), squeeze=False, sharex=True, sharey=True)
+    figure, axes = plt.subplots(len(rows), len(flows), figsize=(len(flows) * max(1.6, 4.6 * aspect) + 1.2, 4.7 * len(rows)), squeeze=False, sharex=True,
+                                sharey=True, layout="constrained")
     for r, name in enumerate(rows):
         planes = [picture(fluid, name) for _, fluid in flows]
         positive = np.concatenate([p[np.isfinite(p) & (p > 0)] for p in planes])
         norm = LogNorm(max(np.percentile(positive, 0.2), positive.max() * 1e-6), np.percentile(positive, 99.95))
-        colour = "turbo" if name == pressure_name else "viridis"
+        colour = "inferno" if name == pressure_name else "viridis"
         for k, (t, fluid) in enumerate(flows):
             ax = axes[r][k]
             image = ax.imshow(np.maximum(planes[k], norm.vmin), origin="lower", extent=extent, norm=norm, cmap=colour, interpolation="nearest")
             if products and extent[1] > extent[0]:
                 try:
-                    ax.contour(fluid.centres(horizontal), fluid.centres(axis), picture(fluid, products), levels=[0.5], colors="white", linewidths=0.7)
+                    ax.contour(fluid.centres(horizontal), fluid.centres(axis), picture(fluid, products), levels=[0.5], colors="white" if name == pressure_name else "#ff3b6b", linewidths=0.7)
                 except (ValueError, TypeError):
                     pass
             if solids:
@@ -185,7 +186,7 @@ def flow_picture(directory, out, axis, frames):
                 polygons, _ = cut_by_plane(solid, across, position)
                 if horizontal > axis:
                     polygons = [p[:, ::-1] for p in polygons]
-                ax.add_collection(PolyCollection(polygons, facecolors="#20242b", edgecolors="#20242b", linewidths=0.25))
+                ax.add_collection(PolyCollection(polygons, facecolors="#e4e7ea", edgecolors="#5a6067", linewidths=0.2))
             ax.set_xlim(window[0], window[1])
             ax.set_ylim(window[2], window[3])
             ax.grid(False)
@@ -234,23 +235,63 @@ def energy_picture(directory, out):
         if not path.exists():
             continue
         table, unit = fields.history(path), fields.units(path)
-        columns = [name for name in table if unit.get(name) == "J" and np.isfinite(table[name]).any()]
-        if columns:
-            panels.append((program, table, columns))
+        columns = {name.replace("_", " "): table[name] for name in table if unit.get(name) == "J" and np.isfinite(table[name]).any()}
+        if not columns:
+            continue
+        if {"energy", "stored energy", "face work"} <= set(columns):
+            columns["sum of flow, stored, work on the body"] = columns["energy"] + columns["stored energy"] + columns["face work"]
+        largest = max(np.nanmax(np.abs(values)) for values in columns.values()) or 1.0
+        panels.append((program, table, {name: values for name, values in columns.items()
+                                        if np.nanmax(np.abs(values)) > 2e-3 * largest or name == "energy residual"}, largest))
     if not panels:
         return None
-    figure, axes = plt.subplots(1, len(panels), figsize=(5.2 * len(panels), 3.6), squeeze=False)
-    for ax, (program, table, columns) in zip(axes[0], panels):
+    figure, axes = plt.subplots(1, len(panels), figsize=(5.4 * len(panels), 3.8), squeeze=False)
+    for ax, (program, table, columns, largest) in zip(axes[0], panels):
         t, label = time_of(table)
-        largest = max(np.nanmax(np.abs(table[name])) for name in columns) or 1.0
         scale, unit = (1e6, "MJ") if largest > 1e6 else (1e3, "kJ") if largest > 1e3 else (1.0, "J")
-        for name in columns:
-            ax.plot(t, table[name] / scale, lw=1.3, label=name.replace("_", " "))
-        ax.set_title(program)
-        ax.set_xlabel(label)
-        ax.set_ylabel(f"energy [{unit}]")
+        for name, values in columns.items():
+            total = name.startswith("sum")
+            ax.plot(t, values / scale, "k--" if total else "-", lw=1.0 if total else 1.4, label=name)
+        ax.set(title=program, xlabel=label, ylabel=f"energy [{unit}]")
         ax.legend(fontsize=7)
     path = out / "energy.png"
+    figure.tight_layout()
+    figure.savefig(path)
+    plt.close(figure)
+    return path
+
+
+def ledger_picture(directory, out):
+    """What crossed between the programs, and what was lost: coupling_history.csv."""
+    source = directory / "coupling_history.csv"
+    if not source.exists():
+        return None
+    table = fields.history(source)
+    t, label = time_of(table)
+    if t.size < 2:
+        return None
+    figure, axes = plt.subplots(2, 3, figsize=(13, 6.4))
+
+    def plot(ax, title, unit, *columns, scale=1.0, log=False):
+        for column in columns:
+            name, values = column if isinstance(column, tuple) else (column.replace("_", " "), table.get(column))
+            if values is not None:
+                ax.plot(t, np.abs(values) if log else values / scale, lw=1.2, label=name)
+        ax.set(title=title, xlabel=label, ylabel=unit)
+        if log:
+            ax.set_yscale("log")
+        if ax.lines:
+            ax.legend(fontsize=7)
+    plot(axes[0][0], "impulse of each window on the solid", "[N s]", "impulse_x", "impulse_y", "impulse_z")
+    plot(axes[0][1], "impulse that was lost, of what was exchanged", "[1]", ("defect", np.maximum(np.abs(table["impulse_defect"]), 1e-18)), log=True)
+    axes[0][1].axhline(1e-12, color="0.5", ls="--", lw=0.8)
+    plot(axes[0][2], "work", "[MJ]", "fluid_work_sum", "solid_work_sum", scale=1e6)
+    mass = table.get("fluid_mass")
+    if mass is not None and mass[0] > 0:
+        plot(axes[1][0], "change of the fluid's mass", "[%]", ("mass", 100 * (mass / mass[0] - 1)))
+    plot(axes[1][1], "faces", "[1]", "born_faces", "dry_faces")
+    plot(axes[1][2], "waiting of the solid in each window", "[s]", "waited")
+    path = out / "coupling.png"
     figure.tight_layout()
     figure.savefig(path)
     plt.close(figure)
@@ -340,7 +381,7 @@ def main():
     out = directory / "pictures"
     out.mkdir(exist_ok=True)
     made = [case_picture(directory, out, axis, options.frames), flow_picture(directory, out, axis, options.frames), energy_picture(directory, out),
-            columns_picture(directory / "coupling_history.csv", out, "coupling.png", "coupling ledger"),
+            ledger_picture(directory, out),
             columns_picture(directory / "fluid_gauges.csv", out, "gauges.png", "gauges in the fluid"), fragment_picture(directory, out)]
     made = [str(path) for path in made if path]
     print("\n".join(made) or f"pictures: no data in {directory}")

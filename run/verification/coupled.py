@@ -75,3 +75,25 @@ def c11():
                     band, result.seconds)
         yield close(f"{h:g} mm: solid's momentum against the impulse", solid["momentum x"][-1], impulse, 1e-9)
         yield close(f"{h:g} mm: work of the fluid against the solid's", float(np.sum(ledger["fluid_work"])), float(np.sum(ledger["solid_work"])), 0.01)
+
+
+@case("weapon")
+def weapon():
+    """The demo: ledger, mass, energy of both programs, charge, pieces"""
+    text = (ROOT / "run" / "cases" / "weapon" / "case.toml").read_text().replace('directory = "run/out/weapon"', 'directory = "out"')
+    result = run("weapon", text)
+    ledger = fields.history(result.directory / "coupling_history.csv")
+    fluid, solid = (fields.history(result.directory / f"{name}_history.csv") for name in ("fluid", "solid"))
+    totals, metal = (fields.summary(result.directory, name) for name in ("fluid", "solid"))
+    yield at_most("impulse defect of any window", np.abs(ledger["impulse_defect"]).max(), 1e-12, result.seconds)
+    mass = fluid["mass"] + fluid["outflow mass"]
+    yield at_most("fluid: mass, largest change over the mass at the start", np.abs(mass - mass[0]).max() / mass[0], 0.01)
+    energy = fluid["energy"] + fluid["stored_energy"] + fluid["face work"] + fluid["outflow energy"]
+    yield at_most("fluid: energy + work on the body, change over the chemical energy", np.abs(energy - energy[0]).max() / totals["energies"]["chemical"], 0.01)
+    yield at_most("solid: energy residual over the work of the loads", np.abs(solid["energy_residual"]).max() / np.abs(solid["external_work"][-1]), 0.01)
+    yield at_most("work of the fluid less the solid's, over the kinetic energy",
+                  (ledger["fluid_work_sum"][-1] - ledger["solid_work_sum"][-1]) / solid["kinetic_energy"][-1], 0.01)
+    yield close("charge [kg] against cavity volume times density", totals["masses"]["explosive"], totals["masses"]["cavity_volume_times_density"], 0.01)
+    yield at_least("hexahedra (>= 8000)", metal["counts"]["elements"], 8000)
+    yield at_least("pieces at the end (>= 100)", fields.Solid(fields.series(result.directory, "solid")[-1][1]).pieces().max() + 1, 100)
+    yield at_most("wall seconds", result.seconds, 600)
