@@ -3,6 +3,7 @@
 // wall, and the one-sided line through that state.
 #pragma once
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "cfd/embed/cut_map.h"
@@ -81,6 +82,7 @@ struct WallGas {
       for (int q = 0; q < densities; ++q) at[size_t(q)] *= ratio;
       return rho_c2(eos.sum(at), pressure, G);
     });
+    if (!std::isfinite(star.p) || !std::isfinite(star.compress)) return {w, K};  // no gas to speak of: it keeps what it has
     State at = w;
     for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
     at[p] = star.p;

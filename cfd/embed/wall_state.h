@@ -58,7 +58,10 @@ WallStar fan(double rho, double p, double G, double dv, const Stiffness& stiffne
     double z, Q, c;
   };
   WallStar now{p, 1};
+  // where the equation of state runs out of stiffness a step may overshoot: that gas cavitates
+  constexpr double z_least = 1e-6;
   auto rate = [&](double z, double Q) {
+    z = std::max(z, z_least);
     const double r = std::pow(z, over_m), r_gamma = r * z * z;
     now = {Q * r_gamma, r};
     const double K = std::max(stiffness(r, now.p), 1e-9 * p), c = std::sqrt(K / (rho * r));
@@ -70,14 +73,15 @@ WallStar fan(double rho, double p, double G, double dv, const Stiffness& stiffne
     const double d = std::min(left, 0.5 * k1.c), half = 0.5 * d;
     if (d < 0.1 * k1.c && step == 0) {  // a short fan: the midpoint rule is within 1e-4
       const Rate k = rate(z + half * k1.z, Q + half * k1.Q);
-      const double z_end = z + d * k.z, r = std::pow(z_end, over_m);
-      return {(Q + d * k.Q) * r * z_end * z_end, r};
+      const double z_end = std::max(z + d * k.z, z_least), r = std::pow(z_end, over_m);
+      return {std::max((Q + d * k.Q) * r * z_end * z_end, wall_vacuum * p), std::max(r, wall_vacuum)};
     }
     const Rate k2 = rate(z + half * k1.z, Q + half * k1.Q), k3 = rate(z + half * k2.z, Q + half * k2.Q),
                k4 = rate(z + d * k3.z, Q + d * k3.Q);
     z += d / 6 * (k1.z + 2 * k2.z + 2 * k3.z + k4.z);
     Q += d / 6 * (k1.Q + 2 * k2.Q + 2 * k3.Q + k4.Q);
     left -= d;
+    if (!(z > z_least) || !std::isfinite(Q)) return {wall_vacuum * p, wall_vacuum};
     const double r = std::pow(z, over_m);
     now = {Q * r * z * z, r};
     if (now.p <= wall_vacuum * p || r <= wall_vacuum) break;
