@@ -31,7 +31,8 @@ Mesh build_mesh(const SolidCase& cs) {
 void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
   for (int e = 0; e < mesh.elem_count(); ++e) {
     const BodyCase& body = cs.bodies[size_t(mesh.body[ElemId(e)])];
-    for (NodeId n : mesh.hex[ElemId(e)]) s.v[n] = body.velocity + (body.motion ? body.motion->velocity(s.x[n]) : Vec3{});
+    for (NodeId n : mesh.hex[ElemId(e)])
+      s.v[n] = body.velocity + (body.motion ? body.motion->velocity(s.x[n]) : Vec3{});
   }
 }
 

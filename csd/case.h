@@ -58,7 +58,8 @@ struct TimeStepCase {
   double safety = 0.9, maximum = 0, fixed = 0;
   template <class K>
   void describe(K& k) {
-    k.optional("safety", safety, dim::none, "step over 2/omega_max, where omega_max is a bound from the elements' actual stiffness");
+    k.optional("safety", safety, dim::none,
+               "step over 2/omega_max, where omega_max is a bound from the elements' actual stiffness");
     k.optional("maximum", maximum, dim::time, "longest step; 0: no limit");
     k.optional("fixed", fixed, dim::time, "step, whatever is stable; 0: from the stable step");
     k.expect(safety > 0 && safety <= 1.5, "safety", "a number in (0, 1.5]");
@@ -70,7 +71,8 @@ struct TimeStepCase {
 struct ViscosityCase : BulkViscosity {
   template <class K>
   void describe(K& k) {
-    k.optional("linear", linear, dim::none, "c1 of q = rho h (c1 c_L + c2^2 h |rate|) |rate|, on compression; 0.06 is usual");
+    k.optional("linear", linear, dim::none,
+               "c1 of q = rho h (c1 c_L + c2^2 h |rate|) |rate|, on compression; 0.06 is usual");
     k.optional("quadratic", quadratic, dim::none, "c2; 1.5 is usual (strong shocks)");
     k.expect(linear >= 0, "linear", "a number >= 0");
     k.expect(quadratic >= 0, "quadratic", "a number >= 0");
@@ -82,7 +84,8 @@ struct WetCase {
   std::vector<std::string> faces;
   template <class K>
   void describe(K& k) {
-    k.optional("faces", faces, "face sets that touch the fluid, besides faces made by cracks; empty: the whole boundary");
+    k.optional("faces", faces,
+               "face sets that touch the fluid, besides faces made by cracks; empty: the whole boundary");
     if (!k.is_manual()) place = k.where("faces");
   }
   std::string place;
@@ -104,7 +107,8 @@ struct SolidCase {
   template <class K>
   void describe(K& k) {
     k.optional("threads", threads, "threads of csd; 0: OMP_NUM_THREADS or what the machine gives");
-    k.optional("renumber", renumber, "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
+    k.optional("renumber", renumber,
+               "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
     k.tables("body", bodies, "a body: mesh, material, initial motion");
     k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
     k.table("filter", filter, "pressure filter");

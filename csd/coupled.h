@@ -17,8 +17,8 @@ class Coupled {
 
   double t_end() const { return side_->t_end(); }
   bool stop_asked() const { return side_->stop_asked(); }
-  /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window. Returns the window's
-  /// end, at most t_max.
+  /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window. Returns the
+  /// window's end, at most t_max.
   double exchange(Model& model, double dt_stable, double t_max);
   /// Around each step of the window.
   void before_step(const Model& model);

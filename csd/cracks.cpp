@@ -10,7 +10,10 @@
 namespace bw::csd {
 
 Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t)
-    : criterion_(input.criterion.model), fracture_(input, mesh), fragments_(mesh, t), fail_(size_t(mesh.elem_count())) {}
+    : criterion_(input.criterion.model),
+      fracture_(input, mesh),
+      fragments_(mesh, t),
+      fail_(size_t(mesh.elem_count())) {}
 
 void Cracks::update_fail(const Model& m) {
   const Elements& el = m.physics.elements;
@@ -33,8 +36,11 @@ void Cracks::update_fail(const Model& m) {
 bool Cracks::advance(Model& m) {
   update_fail(m);
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
-  const auto sigma = [&](ElemId e) { return evaluate(m.physics.elements, m.state, m.physics.elements.blocks.slot[e], sigma_m).sigma; };
-  const bool opened = fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
+  const auto sigma = [&](ElemId e) {
+    return evaluate(m.physics.elements, m.state, m.physics.elements.blocks.slot[e], sigma_m).sigma;
+  };
+  const bool opened =
+      fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
   if (opened) take_over(m, splits_, changed_);
   return opened;
 }
@@ -49,7 +55,8 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
   for (const NodeSplit& split : splits) touched.push_back(split.parent), touched.push_back(split.child);
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  for (NodeId n : touched) {  // children of children hold copies of the first parent's mass: all see the mass before the step
+  for (NodeId n :
+       touched) {  // children of children hold copies of the first parent's mass: all see the mass before the step
     const double before = s.m[n];
     s.m[n] = node_mass(mesh, ph.elements, topology.elements(n), n);
     s.f[n] = (s.m[n] / before) * s.f[n];

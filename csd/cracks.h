@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cracks and fragments in the step: failure values from the elements, then everything that a split node touches. A crack
-// changes mass, momentum and energy by nothing but the filter's share, which is booked: nodes get their parent's position,
-// velocity and acceleration.
+// Cracks and fragments in the step: failure values from the elements, then everything that a split node touches. A
+// crack changes mass, momentum and energy by nothing but the filter's share, which is booked: nodes get their parent's
+// position, velocity and acceleration.
 #pragma once
 #include <vector>
 

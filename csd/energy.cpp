@@ -8,7 +8,8 @@
 namespace bw::csd {
 
 double kinetic_energy(const State& s) {
-  return parallel_sum(int64_t(s.x.size()), [&](int64_t i) { return 0.5 * s.m[NodeId(i)] * dot(s.v[NodeId(i)], s.v[NodeId(i)]); });
+  return parallel_sum(int64_t(s.x.size()),
+                      [&](int64_t i) { return 0.5 * s.m[NodeId(i)] * dot(s.v[NodeId(i)], s.v[NodeId(i)]); });
 }
 
 double kinetic_product(const State& s) {

@@ -9,21 +9,22 @@ struct Physics;
 
 /// What only flows, summed over the steps [J].
 struct EnergyBooks {
-  double external = 0;    ///< work of the loads
-  double viscosity = 0;   ///< spent in bulk viscosity
-  double cracks = 0;      ///< set free by cracks
-  double initial = 0;     ///< kinetic and stored at the start
+  double external = 0;   ///< work of the loads
+  double viscosity = 0;  ///< spent in bulk viscosity
+  double cracks = 0;     ///< set free by cracks
+  double initial = 0;    ///< kinetic and stored at the start
 };
 
 /// All terms at one time [J]; residual = kinetic + stored + spent - initial - brought in.
 struct EnergyRow {
-  double kinetic = 0, elastic = 0, plastic = 0, filter = 0, collapse = 0, viscosity = 0, external = 0, conditions = 0, cracks = 0,
-         residual = 0;
+  double kinetic = 0, elastic = 0, plastic = 0, filter = 0, collapse = 0, viscosity = 0, external = 0, conditions = 0,
+         cracks = 0, residual = 0;
   double eqps_max = 0;  ///< of all integration points
 };
 
 double kinetic_energy(const State& s);
-/// Product form v^(n-1/2) . v^(n+1/2) m/2: what central differences conserve; differs from kinetic_energy by dt^2/8 f^2/m.
+/// Product form v^(n-1/2) . v^(n+1/2) m/2: what central differences conserve; differs from kinetic_energy by dt^2/8
+/// f^2/m.
 double kinetic_product(const State& s);
 EnergyRow energy_row(const Physics& ph, const State& s);
 

@@ -18,15 +18,19 @@ namespace {
 
 std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
   std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}, {"dt_stable", "s"}};
-  for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy", "viscous_work",
-                           "external_work", "condition_work", "crack_energy", "energy_residual"})
+  for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy",
+                           "viscous_work", "external_work", "condition_work", "crack_energy", "energy_residual"})
     c.push_back({name, "J"});
   c.push_back({"mass", "kg"});
   for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
-  for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"}) c.push_back({name, "1"});
+  for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"})
+    c.push_back({name, "1"});
   for (ProbeCase& probe : probes)
-    std::visit([&](const auto& p) { for (const auto& column : p.columns()) c.push_back({probe.name + " " + column.name, column.unit}); },
-               probe.kind);
+    std::visit(
+        [&](const auto& p) {
+          for (const auto& column : p.columns()) c.push_back({probe.name + " " + column.name, column.unit});
+        },
+        probe.kind);
   return c;
 }
 
@@ -39,15 +43,21 @@ double mass_of(const State& s) {
   return parallel_sum(int64_t(s.x.size()), [&](int64_t n) { return s.m[NodeId(n)]; });
 }
 double collapsed_elements(const Model& m) {
-  return parallel_sum(m.mesh.elem_count(), [&](int64_t e) { return m.state.collapsed[m.physics.elements.blocks.slot[ElemId(e)]]; });
+  return parallel_sum(m.mesh.elem_count(),
+                      [&](int64_t e) { return m.state.collapsed[m.physics.elements.blocks.slot[ElemId(e)]]; });
 }
 
 }  // namespace
 
 Output::Output(const Case& cs, const Model& model, double t_end)
-    : case_(cs), t_end_(t_end), probes_(cs.solid.probes), series_(cs.run.output.directory, "solid"),
-      fields_(cs.run.output.fields_every, Schedule::Zero::never), rows_(cs.run.output.history_every, Schedule::Zero::every_step),
-      progress_(t_end, cs.run.time.max_steps), start_(std::chrono::steady_clock::now()) {
+    : case_(cs),
+      t_end_(t_end),
+      probes_(cs.solid.probes),
+      series_(cs.run.output.directory, "solid"),
+      fields_(cs.run.output.fields_every, Schedule::Zero::never),
+      rows_(cs.run.output.history_every, Schedule::Zero::every_step),
+      progress_(t_end, cs.run.time.max_steps),
+      start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
   history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
@@ -71,15 +81,32 @@ void Output::write_row(Model& m) {
   t_row_ = s.t;
   energy_ = energy_row(m.physics, s);
   mass_ = mass_of(s), momentum_ = momentum_of(s);
-  std::vector<double> row{s.t, double(s.step), s.dt, s.dt_stable, energy_.kinetic, energy_.elastic, energy_.plastic, energy_.filter,
-                          energy_.collapse, energy_.viscosity, energy_.external, energy_.conditions, energy_.cracks, energy_.residual,
-                          mass_, momentum_.x, momentum_.y, momentum_.z, energy_.eqps_max, checkerboard(m.physics.elements, s),
-                          collapsed_elements(m), double(m.mesh.node_count())};
+  std::vector<double> row{s.t,
+                          double(s.step),
+                          s.dt,
+                          s.dt_stable,
+                          energy_.kinetic,
+                          energy_.elastic,
+                          energy_.plastic,
+                          energy_.filter,
+                          energy_.collapse,
+                          energy_.viscosity,
+                          energy_.external,
+                          energy_.conditions,
+                          energy_.cracks,
+                          energy_.residual,
+                          mass_,
+                          momentum_.x,
+                          momentum_.y,
+                          momentum_.z,
+                          energy_.eqps_max,
+                          checkerboard(m.physics.elements, s),
+                          collapsed_elements(m),
+                          double(m.mesh.node_count())};
   auto& cracks = m.physics.cracks;
   row.push_back(cracks ? double(cracks->opened_faces()) : 0);
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
-  for (ProbeCase& probe : probes_)
-    std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
+  for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
   history_->row(row);
 }
 
@@ -101,8 +128,11 @@ std::string Output::write_fields(Model& m) {
   VtkMesh mesh;
   mesh.points = {s.x.data(), s.x.size()};
   mesh.add_hexahedra(m.mesh.hex);
-  std::vector<VtkField> cells{VtkField::scalars("J", J), VtkField::scalars("sigma_m", mean), VtkField::scalars("von_mises", mises),
-                              VtkField::scalars("eqps", eqps), VtkField::scalars("eqps_max", eqps_max),
+  std::vector<VtkField> cells{VtkField::scalars("J", J),
+                              VtkField::scalars("sigma_m", mean),
+                              VtkField::scalars("von_mises", mises),
+                              VtkField::scalars("eqps", eqps),
+                              VtkField::scalars("eqps_max", eqps_max),
                               VtkField::integers("body", std::span<const int32_t>(m.mesh.body.data(), n)),
                               VtkField::integers("gid", std::span<const int64_t>(m.mesh.elem_gid.data(), n))};
   std::vector<int64_t> frag_id;
@@ -113,8 +143,10 @@ std::string Output::write_fields(Model& m) {
     cells.push_back(VtkField::integers("frag_id", frag_id));
   }
   last_dump_ = series_.next_path();
-  write_vtkhdf(last_dump_, mesh, {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
-                                  VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})}, cells);
+  write_vtkhdf(last_dump_, mesh,
+               {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
+                VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})},
+               cells);
   series_.add(s.t);
   return last_dump_;
 }
@@ -139,7 +171,8 @@ double Output::rate() const {
 void Output::tick(const Model& m) {
   element_steps_ += m.mesh.elem_count();
   progress_.tick(m.state.step, m.state.t, [&] {
-    const double scale = std::fmax(std::fabs(energy_.kinetic) + energy_.elastic + energy_.plastic + std::fabs(energy_.external), 1e-300);
+    const double scale =
+        std::fmax(std::fabs(energy_.kinetic) + energy_.elastic + energy_.plastic + std::fabs(energy_.external), 1e-300);
     return fmt::format("dt {:.3g} s ({}), energy residual {:.1e}, {} nodes, {:.2f} Melem/s", m.state.dt, limiter(m),
                        energy_.residual / scale, m.mesh.node_count(), 1e-6 * rate());
   });
@@ -159,20 +192,23 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.case_file = case_.file, sum.title = case_.run.title, sum.status = status, sum.message = message;
   sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
   sum.rates = {{"elements_per_second", loop_rate}};
-  sum.energies = {{"kinetic", energy_.kinetic}, {"elastic", energy_.elastic}, {"plastic", energy_.plastic}, {"filter", energy_.filter},
-                  {"collapse", energy_.collapse}, {"viscosity", energy_.viscosity}, {"external", energy_.external},
-                  {"conditions", energy_.conditions}, {"cracks", energy_.cracks}, {"residual", energy_.residual}};
+  sum.energies = {{"kinetic", energy_.kinetic},   {"elastic", energy_.elastic},       {"plastic", energy_.plastic},
+                  {"filter", energy_.filter},     {"collapse", energy_.collapse},     {"viscosity", energy_.viscosity},
+                  {"external", energy_.external}, {"conditions", energy_.conditions}, {"cracks", energy_.cracks},
+                  {"residual", energy_.residual}};
   sum.masses = {{"solid", mass_}};
   sum.momenta = {{"x", momentum_.x}, {"y", momentum_.y}, {"z", momentum_.z}};
-  sum.counts = {{"elements", double(m.mesh.elem_count())}, {"nodes", double(m.mesh.node_count())}, {"collapsed_elements", collapsed_elements(m)}};
+  sum.counts = {{"elements", double(m.mesh.elem_count())},
+                {"nodes", double(m.mesh.node_count())},
+                {"collapsed_elements", collapsed_elements(m)}};
   if (m.physics.cracks) {
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
   }
   sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
   sum.write(case_.run.output.directory + "/solid_summary.json", timers());
-  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status, m.state.step, m.state.t,
-      1e-6 * loop_rate, limiter(m), energy_.residual);
+  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status,
+      m.state.step, m.state.t, 1e-6 * loop_rate, limiter(m), energy_.residual);
 }
 
 }  // namespace bw::csd

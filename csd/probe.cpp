@@ -17,7 +17,8 @@ void NodeProbe::select(const Mesh& mesh, const Physics&) {
   for (int n = 0; n < mesh.node_count(); ++n) {
     const double d = norm(mesh.X[NodeId(n)] - position);
     // of equally near ones, the lowest global id: numbering doesn't matter
-    if (d < nearest || (d == nearest && mesh.node_gid[NodeId(n)] < mesh.node_gid[node_])) nearest = d, node_ = NodeId(n);
+    if (d < nearest || (d == nearest && mesh.node_gid[NodeId(n)] < mesh.node_gid[node_]))
+      nearest = d, node_ = NodeId(n);
   }
 }
 void NodeProbe::values(const Mesh&, const State& s, const Physics&, std::vector<double>& out) {
@@ -31,14 +32,15 @@ void ElementProbe::select(const Mesh& mesh, const Physics&) {
     Vec3 centre;
     for (NodeId n : mesh.hex[ElemId(e)]) centre += 0.125 * mesh.X[n];
     const double d = norm(centre - position);
-    if (d < nearest || (d == nearest && mesh.elem_gid[ElemId(e)] < mesh.elem_gid[elem_])) nearest = d, elem_ = ElemId(e);
+    if (d < nearest || (d == nearest && mesh.elem_gid[ElemId(e)] < mesh.elem_gid[elem_]))
+      nearest = d, elem_ = ElemId(e);
   }
 }
 void ElementProbe::values(const Mesh&, const State& s, const Physics& ph, std::vector<double>& out) {
   const SlotId slot = ph.elements.blocks.slot[elem_];
   const ElementResult r = evaluate(ph.elements, s, slot, ph.filter ? ph.filter->mean_stress() : nullptr);
-  out.insert(out.end(), {s.volume[slot] / s.V0[slot], r.eqps, trace(r.sigma) / 3, von_mises(r.sigma), r.sigma.xx, r.sigma.yy, r.sigma.zz,
-                         r.sigma.xy, r.sigma.xz, r.sigma.yz});
+  out.insert(out.end(), {s.volume[slot] / s.V0[slot], r.eqps, trace(r.sigma) / 3, von_mises(r.sigma), r.sigma.xx,
+                         r.sigma.yy, r.sigma.zz, r.sigma.xy, r.sigma.xz, r.sigma.yz});
 }
 
 void RingProbe::select(const Mesh& mesh, const Physics&) {
@@ -74,7 +76,8 @@ void RingProbe::values(const Mesh& mesh, const State& s, const Physics&, std::ve
 
 void WallForceProbe::select(const Mesh&, const Physics& ph) {
   if (condition < 0 || size_t(condition) >= ph.conditions.size())
-    throw InputError(fmt::format("{}: condition {} does not exist: the case has {}", place, condition, ph.conditions.size()));
+    throw InputError(
+        fmt::format("{}: condition {} does not exist: the case has {}", place, condition, ph.conditions.size()));
 }
 void WallForceProbe::values(const Mesh&, const State& s, const Physics& ph, std::vector<double>& out) {
   const Vec3 impulse = std::visit([](const auto& c) { return c.reaction.impulse; }, ph.conditions[size_t(condition)]);

@@ -23,7 +23,9 @@ struct NodeProbe {
     k.required("position", position, dim::length, "of the node: the nearest one at the start is taken");
   }
   void select(const Mesh& mesh, const Physics&);
-  std::vector<History::Column> columns() const { return {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"}}; }
+  std::vector<History::Column> columns() const {
+    return {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"}};
+  }
   void values(const Mesh& mesh, const State& s, const Physics& ph, std::vector<double>& out);
 
  private:
@@ -36,12 +38,13 @@ struct ElementProbe {
   Vec3 position{};
   template <class K>
   void describe(K& k) {
-    k.required("position", position, dim::length, "of the element: the one with the nearest centroid at the start is taken");
+    k.required("position", position, dim::length,
+               "of the element: the one with the nearest centroid at the start is taken");
   }
   void select(const Mesh& mesh, const Physics&);
   std::vector<History::Column> columns() const {
-    return {{"J", "1"}, {"eqps", "1"}, {"sigma_m", "Pa"}, {"von_mises", "Pa"}, {"sigma_xx", "Pa"}, {"sigma_yy", "Pa"}, {"sigma_zz", "Pa"},
-            {"sigma_xy", "Pa"}, {"sigma_xz", "Pa"}, {"sigma_yz", "Pa"}};
+    return {{"J", "1"},         {"eqps", "1"},      {"sigma_m", "Pa"},  {"von_mises", "Pa"}, {"sigma_xx", "Pa"},
+            {"sigma_yy", "Pa"}, {"sigma_zz", "Pa"}, {"sigma_xy", "Pa"}, {"sigma_xz", "Pa"},  {"sigma_yz", "Pa"}};
   }
   void values(const Mesh& mesh, const State& s, const Physics& ph, std::vector<double>& out);
 
@@ -67,15 +70,18 @@ struct RingProbe {
     if (!k.is_manual()) place = k.where("kind");
   }
   void select(const Mesh& mesh, const Physics&);
-  std::vector<History::Column> columns() const { return {{"radius", "m"}, {"radius_max", "m"}, {"v_radial", "m/s"}, {"v_axial", "m/s"}, {"z", "m"}}; }
+  std::vector<History::Column> columns() const {
+    return {{"radius", "m"}, {"radius_max", "m"}, {"v_radial", "m/s"}, {"v_axial", "m/s"}, {"z", "m"}};
+  }
   void values(const Mesh& mesh, const State& s, const Physics& ph, std::vector<double>& out);
 
  private:
-  std::vector<NodeId> nodes_;   // with the children that cracks gave them
-  std::vector<char> is_in_;     // per node known so far
+  std::vector<NodeId> nodes_;  // with the children that cracks gave them
+  std::vector<char> is_in_;    // per node known so far
 };
 
-/// Force that the body puts on a rigid wall (or what a fixed, roller or velocity condition bears): the mean over the last step.
+/// Force that the body puts on a rigid wall (or what a fixed, roller or velocity condition bears): the mean over the
+/// last step.
 struct WallForceProbe {
   static constexpr auto name = "wall_force";
   int condition = 0;

@@ -21,10 +21,12 @@ namespace {
   Vec3 c;
   for (NodeId n : m.mesh.hex[e]) c += 0.125 * m.state.x[n];
   const double v = m.state.volume[slot];
-  throw PhysicsError(fmt::format(
-      "element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m {}, step {}, t = {:.9g} s{}", m.mesh.elem_gid[e], m.mesh.body[e], c.x, c.y, c.z,
-      std::isnan(v) ? "has positions that are not numbers" : fmt::format("is inverted (volume {:.3g} m^3 of {:.3g})", v, m.state.V0[slot]),
-      m.state.step, m.state.t, last_dump.empty() ? "" : "; last good fields: " + last_dump));
+  throw PhysicsError(fmt::format("element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m {}, step {}, t = {:.9g} s{}",
+                                 m.mesh.elem_gid[e], m.mesh.body[e], c.x, c.y, c.z,
+                                 std::isnan(v)
+                                     ? "has positions that are not numbers"
+                                     : fmt::format("is inverted (volume {:.3g} m^3 of {:.3g})", v, m.state.V0[slot]),
+                                 m.state.step, m.state.t, last_dump.empty() ? "" : "; last good fields: " + last_dump));
 }
 
 /// The step that the case asks for at the present state.
@@ -50,8 +52,8 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
   std::string status = "finished";
   try {
     double dt = wanted_dt(cs, m, out);
-    say("{} elements in {} colours, {} threads, first step {:.4g} s", m.mesh.elem_count(), m.physics.elements.blocks.colours.size(),
-        thread_count(), dt);
+    say("{} elements in {} colours, {} threads, first step {:.4g} s", m.mesh.elem_count(),
+        m.physics.elements.blocks.colours.size(), thread_count(), dt);
     out.write_due(m);
     while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
       const double t_next = out.next_time(m.state.t);

@@ -13,20 +13,20 @@
 namespace bw::csd {
 
 struct State {
-  double t = 0;         ///< s
-  double dt = 0;        ///< s, last step
-  double dt_stable = 0; ///< s, bound at t
+  double t = 0;          ///< s
+  double dt = 0;         ///< s, last step
+  double dt_stable = 0;  ///< s, bound at t
   int64_t step = 0;
 
   Field<Vec3, NodeId> x, v;  ///< m, m/s, at t
   Field<Vec3, NodeId> f;     ///< N, all forces at t, after the conditions took theirs
   Field<double, NodeId> m;   ///< kg, lumped
 
-  Field<double, SlotId> V0;      ///< m^3, reference volume
-  Field<double, SlotId> volume;  ///< m^3, current
-  Field<double, SlotId> omega2;  ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
+  Field<double, SlotId> V0;              ///< m^3, reference volume
+  Field<double, SlotId> volume;          ///< m^3, current
+  Field<double, SlotId> omega2;          ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
   Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress
-  Field<double, SlotId> collapsed;  ///< 1: a point has lost most of its volume (element/q1p0.h)
+  Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
   std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes]
 
   enum Use { none = 0, output = 1 };

@@ -10,16 +10,17 @@ namespace {
 void sum_forces(Model& m, double t, double dt) {
   auto& [mesh, topology, s, ph] = m;
   MeanStress mean{.viscosity = ph.viscosity, .dt = dt};
-  if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);    // sec. 2.1
-  ph.energy.viscosity += internal_force(ph.elements, mean, s);  // eqs (1)-(13), (15)
-  if (ph.loads) ph.loads->add(mesh, t, s);                           // eqs (15), (18)
+  if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);  // sec. 2.1
+  ph.energy.viscosity += internal_force(ph.elements, mean, s);     // eqs (1)-(13), (15)
+  if (ph.loads) ph.loads->add(mesh, t, s);                         // eqs (15), (18)
 }
 
 void on_force(Model& m, double dt) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.on_force(m.state, dt); }, kind);
 }
 void before_drift(Model& m, double dt) {
-  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); }, kind);
+  for (auto& kind : m.physics.conditions)
+    std::visit([&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); }, kind);
 }
 void after_kick(Model& m, double dt) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.after_kick(m.state, dt); }, kind);

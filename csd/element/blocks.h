@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elements in blocks of `lanes`, all of one body; the last block of a body is padded with copies of its last element.
-// Blocks form chunks, chunks have colours: chunks of one colour share no node, so they add their forces in parallel, and
-// a node receives its forces in the same order for any number of threads. Colours come from the uncracked mesh and stay
-// valid: a crack only removes sharing.
+// Blocks form chunks, chunks have colours: chunks of one colour share no node, so they add their forces in parallel,
+// and a node receives its forces in the same order for any number of threads. Colours come from the uncracked mesh and
+// stay valid: a crack only removes sharing.
 #pragma once
 #include <vector>
 
@@ -22,11 +22,11 @@ struct Chunk {
 };
 
 struct Blocks {
-  Aligned<int32_t> node;               ///< [block][8][lanes]
-  std::vector<int> used;               ///< [block] lanes that are elements, the rest is padding
-  Field<ElemId, SlotId> elem;          ///< padding: the element that it copies
+  Aligned<int32_t> node;       ///< [block][8][lanes]
+  std::vector<int> used;       ///< [block] lanes that are elements, the rest is padding
+  Field<ElemId, SlotId> elem;  ///< padding: the element that it copies
   Field<SlotId, ElemId> slot;
-  std::vector<int> first_block;        ///< [bodies + 1]
+  std::vector<int> first_block;  ///< [bodies + 1]
   std::vector<std::vector<Chunk>> colours;
 
   int block_count() const { return int(used.size()); }

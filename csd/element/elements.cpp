@@ -22,7 +22,8 @@ namespace {
 
 template <class M>
 double* history_of(State& s, const Elements& el, int body, int block) {
-  return s.history[size_t(body)].data() + size_t(block - el.blocks.first_block[size_t(body)]) * 8 * M::components * lanes;
+  return s.history[size_t(body)].data() +
+         size_t(block - el.blocks.first_block[size_t(body)]) * 8 * M::components * lanes;
 }
 
 /// What bulk viscosity does to an element.
@@ -30,7 +31,8 @@ struct Viscous {
   Pack stress;  ///< Pa, added to sigma_m
   Pack beta;    ///< s, viscosity over stiffness: damping matrix <= beta K
 };
-[[gnu::noinline]] Viscous viscous_stress(const BulkViscosity& c, const Elastic& m, Pack V0, Pack volume, Pack before, double dt) {
+[[gnu::noinline]] Viscous viscous_stress(const BulkViscosity& c, const Elastic& m, Pack V0, Pack volume, Pack before,
+                                         double dt) {
   const Pack rate = min((volume - before) / (volume * Pack(dt)), Pack(0));  // of the volume, 1/s
   Pack h;
   for (int l = 0; l < Pack::size; ++l) h.set(l, std::cbrt(volume[l]));
@@ -40,8 +42,8 @@ struct Viscous {
   return {stress, eta / m.volumetric.stiffness(volume / V0)};
 }
 
-/// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega/2:
-/// the omega^2 of an undamped element with the same limit.
+/// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta
+/// omega/2: the omega^2 of an undamped element with the same limit.
 Pack damped_omega2(Pack omega2, Pack beta) {
   const Pack xi = Pack(0.5) * beta * sqrt(omega2), grown = sqrt(Pack(1) + xi * xi) + xi;
   return omega2 * grown * grown;
@@ -49,7 +51,8 @@ Pack damped_omega2(Pack omega2, Pack beta) {
 
 /// Forces of one block; returns the work spent in viscosity.
 template <class M, class Mean>
-[[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of, State& s) {
+[[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
+                                    State& s) {
   double* history = history_of<M>(s, el, body, block);
   const int32_t* nodes = el.blocks.nodes_of(block);
   const int used = el.blocks.used[size_t(block)];
@@ -129,9 +132,10 @@ namespace {
 [[noreturn]] void refuse(const Mesh& mesh, ElemId e, const char* what, double value) {
   Vec3 c;
   for (NodeId n : mesh.hex[e]) c += 0.125 * mesh.X[n];
-  throw InputError(fmt::format("mesh: element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m has {} {:.3g} m^3: its nodes are "
-                               "in the wrong order or it is degenerate",
-                               mesh.elem_gid[e], mesh.body[e], c.x, c.y, c.z, what, value));
+  throw InputError(
+      fmt::format("mesh: element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m has {} {:.3g} m^3: its nodes are "
+                  "in the wrong order or it is degenerate",
+                  mesh.elem_gid[e], mesh.body[e], c.x, c.y, c.z, what, value));
 }
 
 /// Reference volume and history of one element in its lane.
@@ -168,7 +172,8 @@ void start(const Mesh& mesh, Elements& el, State& s) {
             start_element<M>(mesh, e, slot, history_of<M>(s, el, body, slot / lanes) + slot % lanes, s);
             const auto share = row_sums(corners(mesh, e));
             for (int a = 0; a < 8; ++a)
-              el.corner_mass[size_t((slot / lanes * 8 + a) * lanes + slot % lanes)] = material.density * share[size_t(a)];
+              el.corner_mass[size_t((slot / lanes * 8 + a) * lanes + slot % lanes)] =
+                  material.density * share[size_t(a)];
           }
         },
         el.materials[size_t(body)]);

@@ -15,7 +15,9 @@ struct Elements {
   std::vector<Materials> materials;  ///< [body]
   Aligned<double> corner_mass;       ///< [block][8][lanes] kg: row sums of rho_0 N_a (VALIDATION A.3)
 
-  double mass(SlotId slot, int corner) const { return corner_mass[size_t((slot / lanes * 8 + corner) * lanes + slot % lanes)]; }
+  double mass(SlotId slot, int corner) const {
+    return corner_mass[size_t((slot / lanes * 8 + corner) * lanes + slot % lanes)];
+  }
 
   int body_of(SlotId slot) const;
 };
@@ -33,8 +35,8 @@ struct MeanStress {
   double dt = 0;  ///< s since State::volume was taken, for the viscosity's rate
 };
 
-/// Fills State and the corner masses from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v = 0. InputError naming the
-/// element if a reference volume (or its determinant at a point) is not positive.
+/// Fills State and the corner masses from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v =
+/// 0. InputError naming the element if a reference volume (or its determinant at a point) is not positive.
 void start(const Mesh& mesh, Elements& elements, State& s);
 
 /// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work spent in viscosity since the last

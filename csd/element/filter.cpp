@@ -23,7 +23,8 @@ void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J)
 /// U'(J) of each element's material [Pa].
 void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<double, SlotId>& sigma) {
   for_blocks(el.blocks, [&](int block, int body) {
-    const Volumetric& U = std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(body)]);
+    const Volumetric& U =
+        std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(body)]);
     for (int l = 0; l < lanes; l += Pack::size) {
       const SlotId slot(block * lanes + l);
       U.mean_stress(Pack::load(&J[slot])).store(&sigma[slot]);
@@ -50,7 +51,8 @@ double element_sum(const Elements& el, const Value& value) {
   return parallel_sum(int64_t(el.blocks.slot.size()), [&](int64_t e) { return value(el.blocks.slot[ElemId(e)]); });
 }
 const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
-  return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(el.body_of(slot))]);
+  return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; },
+                    el.materials[size_t(el.body_of(slot))]);
 }
 
 }  // namespace
@@ -124,7 +126,8 @@ double checkerboard(const Elements& el, const State& s) {
   volume_ratios(el, s, whole.J_);
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
-  const double rough = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
+  const double rough =
+      element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
   const double all = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i]); });
   const double noise = element_sum(el, [&](SlotId i) { return s.V0[i] * volumetric_of(el, i).kappa; });
   return all > 1e-12 * noise ? rough / all : 0;

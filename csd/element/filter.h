@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pressure filter against the volumetric checkerboard of Q1/P0 (VALIDATION A.4). A = mean over an element's nodes of the
-// nodal V-weighted mean over elements: exact for constants, for linear fields inside; self-adjoint in the V inner product;
-// never across a crack (its nodes are doubled). A_b = (1 - strength) + strength A.
+// Pressure filter against the volumetric checkerboard of Q1/P0 (VALIDATION A.4). A = mean over an element's nodes of
+// the nodal V-weighted mean over elements: exact for constants, for linear fields inside; self-adjoint in the V inner
+// product; never across a crack (its nodes are doubled). A_b = (1 - strength) + strength A.
 //   plain         sigma_m = A_b U'(J)
 //   self_adjoint  sigma_m = A_b U'(A_b J): the derivative of sum V U(A_b J), so energy and momentum stay exact
-// The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one it would be a diffusion.
+// The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one it would be a
+// diffusion.
 #pragma once
 #include <string>
 
@@ -18,9 +19,11 @@ struct FilterCase {
   template <class K>
   void describe(K& k) {
     k.choice("kind", kind, {"off", "plain", "self_adjoint"},
-             "plain: the mean stress is smoothed; self_adjoint: the volume ratio is smoothed and the stress follows from the "
+             "plain: the mean stress is smoothed; self_adjoint: the volume ratio is smoothed and the stress follows "
+             "from the "
              "energy, so that energy is conserved");
-    k.optional("strength", strength, dim::none, "weight of the smoothed part, at most 0.5: beyond, checkerboard volumes lose their stiffness");
+    k.optional("strength", strength, dim::none,
+               "weight of the smoothed part, at most 0.5: beyond, checkerboard volumes lose their stiffness");
     k.expect(strength > 0 && strength <= 0.5, "strength", "a number in (0, 0.5]");
   }
 };
@@ -33,7 +36,8 @@ class PressureFilter {
   const Field<double, SlotId>& smooth(const Elements& elements, const State& s);
   /// The mean stress of the last smooth(), null before.
   const Field<double, SlotId>* mean_stress() const { return sigma_.size() ? &sigma_ : nullptr; }
-  /// J: energy that the elements store beyond sum V U(J) (self_adjoint), or that smoothing took out since the start (plain).
+  /// J: energy that the elements store beyond sum V U(J) (self_adjoint), or that smoothing took out since the start
+  /// (plain).
   double energy(const Elements& elements, const State& s) const;
   /// After cracks.
   void renew(const Elements& elements, const State& s);
@@ -52,7 +56,8 @@ class PressureFilter {
   friend double checkerboard(const Elements&, const State&);
 };
 
-/// Raw checkerboard indicator: sum V |p - A p| / sum V |p| with p = U'(J), 0 for a smooth field, about 1 for a checkerboard.
+/// Raw checkerboard indicator: sum V |p - A p| / sum V |p| with p = U'(J), 0 for a smooth field, about 1 for a
+/// checkerboard.
 double checkerboard(const Elements& elements, const State& s);
 
 }  // namespace bw::csd

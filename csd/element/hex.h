@@ -60,7 +60,8 @@ template <class T>
 Columns<T> columns_of(const Modes<T>& m) {
   const auto& a = m.a;
   const Vec<T> x_ez = a[4] + a[6], x_mz = a[4] - a[6], e_xz = a[5] + a[6], e_mz = a[5] - a[6];
-  const Vec<T> xp = a[0] + a[3], xm = a[0] - a[3], ep = a[1] + a[3], em = a[1] - a[3], zp = a[2] + a[4], zm = a[2] - a[4];
+  const Vec<T> xp = a[0] + a[3], xm = a[0] - a[3], ep = a[1] + a[3], em = a[1] - a[3], zp = a[2] + a[4],
+               zm = a[2] - a[4];
   return {{{xm - x_mz, xp - x_ez, xm + x_mz, xp + x_ez},
            {em - e_mz, ep - e_xz, em + e_mz, ep + e_xz},
            {zm - e_mz, zp - e_xz, zm + e_mz, zp + e_xz}}};
@@ -91,8 +92,8 @@ Corners<T> forces_from_columns(const Columns<T>& q) {
 template <class T>
 T volume_of(const Modes<T>& m) {
   const auto& a = m.a;
-  return T(8) * (triple(a[0], a[1], a[2]) + triple(a[0], a[3], a[4]) + triple(a[3], a[1], a[5]) +
-                 triple(a[4], a[5], a[2]));
+  return T(8) *
+         (triple(a[0], a[1], a[2]) + triple(a[0], a[3], a[4]) + triple(a[3], a[1], a[5]) + triple(a[4], a[5], a[2]));
 }
 
 /// Integral of N_a over the element: 2x2x2 points are exact here too (det has degree 2 per direction, N_a 1).
@@ -103,7 +104,8 @@ inline std::array<double, 8> row_sums(const Corners<double>& X) {
     const double det = triple(g.at(0, i), g.at(1, i), g.at(2, i));
     const double at[3] = {i & 1 ? gauss : -gauss, i & 2 ? gauss : -gauss, i & 4 ? gauss : -gauss};
     for (size_t a = 0; a < 8; ++a)
-      share[a] += 0.125 * det * (1 + node_sign[a][0] * at[0]) * (1 + node_sign[a][1] * at[1]) * (1 + node_sign[a][2] * at[2]);
+      share[a] +=
+          0.125 * det * (1 + node_sign[a][0] * at[0]) * (1 + node_sign[a][1] * at[1]) * (1 + node_sign[a][2] * at[2]);
   }
   return share;
 }

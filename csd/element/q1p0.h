@@ -13,18 +13,19 @@ inline constexpr double collapse_ratio = 0.3;
 
 template <class T>
 struct ElementForce {
-  Corners<T> f;   ///< N, on the nodes: -dE/dx
+  Corners<T> f;      ///< N, on the nodes: -dE/dx
   Vec<T> centre[3];  ///< m, dx/dxi_k at the centroid
-  T volume;       ///< m^3, current
-  T collapsed;    ///< > 0: a point has J_g < collapse_ratio J_bar (or is inverted)
+  T volume;          ///< m^3, current
+  T collapsed;       ///< > 0: a point has J_g < collapse_ratio J_bar (or is inverted)
 };
 
-/// Collapsed points push back (DESIGN 5b): energy kappa/2 ln^2(r / collapse_ratio) per reference volume for r = J_g/J_bar below
-/// the ratio, continued quadratically in r below a sixth of it so that even an inverted point has a way back. Adds to q
-/// the columns sum_g sigma_g c_k and to sigma_m what J_bar contributes; returns the energy [J]. Rare, so it recomputes.
+/// Collapsed points push back (DESIGN 5b): energy kappa/2 ln^2(r / collapse_ratio) per reference volume for r =
+/// J_g/J_bar below the ratio, continued quadratically in r below a sixth of it so that even an inverted point has a way
+/// back. Adds to q the columns sum_g sigma_g c_k and to sigma_m what J_bar contributes; returns the energy [J]. Rare,
+/// so it recomputes.
 template <class T>
-[[gnu::noinline]] T collapse_guard(const Columns<T>& g, const double* history, int components, T J_bar, T volume, T kappa, Columns<T>& q,
-                 T& sigma_m) {
+[[gnu::noinline]] T collapse_guard(const Columns<T>& g, const double* history, int components, T J_bar, T volume,
+                                   T kappa, Columns<T>& q, T& sigma_m) {
   T energy(0), back(0);
   for (int i = 0; i < 8; ++i) {
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
@@ -54,11 +55,11 @@ template <class T>
   }
 }
 
-/// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference volume,
-/// mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
+/// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference
+/// volume, mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
 /// history: [8][M::components][lanes], at this element's lane.
-/// In stages over the eight points, so that the long dependent chains of one point (cube root, return map) overlap with those of
-/// the next.
+/// In stages over the eight points, so that the long dependent chains of one point (cube root, return map) overlap with
+/// those of the next.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
                                const MeanStress& mean_stress) {
@@ -103,7 +104,8 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
     q.at(0, i) += on_h * (A.xx * g1 + A.xy * g2 + A.xz * g3) + on_c * c1;
     q.at(1, i) += on_h * (A.xy * g1 + A.yy * g2 + A.yz * g3) + on_c * c2;
     q.at(2, i) += on_h * (A.xz * g1 + A.yz * g2 + A.zz * g3) + on_c * c3;
-    if (response[i].flows) store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (det_g[i] * det_g[i])));
+    if (response[i].flows)
+      store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (det_g[i] * det_g[i])));
   }
   if (any(collapsed > T(0))) [[unlikely]] {
     T correction(0);

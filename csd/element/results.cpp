@@ -24,7 +24,8 @@ Corners<double> corners_at(const Elements& el, const State& s, SlotId slot) {
 }
 
 template <class M>
-ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0, const double* history, const double* sigma_m) {
+ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0, const double* history,
+                          const double* sigma_m) {
   const Modes<double> modes = modes_of(x);
   const Columns<double> g = columns_of(modes);
   const double volume = volume_of(modes), J_bar = volume / V0;
@@ -35,7 +36,8 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
     double at_point[M::components * lanes];  // a response commits history: into a copy
     std::copy_n(history + i * M::components * lanes, (M::components - 1) * lanes + 1, at_point);
     const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<double>(at_point));
-    const double k = material.respond(p.trial, at_point).k, iso = p.trial.iso, J = std::sqrt(p.trial.J_squared), point_V0 = p.det_g / J;
+    const double k = material.respond(p.trial, at_point).k, iso = p.trial.iso, J = std::sqrt(p.trial.J_squared),
+                 point_V0 = p.det_g / J;
     r.sigma = r.sigma + (p.det_g * k / J) * p.dev_b;
     const double e = k / material.mu, q = e * e * p.trial.dev2, det_s = e * e * e * p.trial.dev_det;
     double third_trace = iso * p.trial.third_trace;
@@ -54,7 +56,8 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
   if (collapsed) {
     Columns<double> unused{};
     double unused_stress = 0;
-    r.collapse = collapse_guard(g, history, M::components, J_bar, volume, material.volumetric.kappa, unused, unused_stress);
+    r.collapse =
+        collapse_guard(g, history, M::components, J_bar, volume, material.volumetric.kappa, unused, unused_stress);
   }
   return r;
 }
@@ -84,7 +87,8 @@ StoredEnergy stored_energy(const Elements& el, const State& s) {
         return StoredEnergy{r.elastic, r.plastic, r.collapse, r.eqps_max};
       },
       [](const StoredEnergy& a, const StoredEnergy& b) {
-        return StoredEnergy{a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse, std::max(a.eqps_max, b.eqps_max)};
+        return StoredEnergy{a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse,
+                            std::max(a.eqps_max, b.eqps_max)};
       });
 }
 

@@ -7,18 +7,19 @@ namespace bw::csd {
 
 /// Means over the current volume, sums over the element.
 struct ElementResult {
-  Sym3 sigma;               ///< Pa, mean Cauchy stress, tension positive
-  double eqps = 0;          ///< mean over the points
-  double eqps_max = 0;      ///< of its points
-  double elastic = 0;       ///< J, V U(J_bar) + sum of W_bar
-  double plastic = 0;       ///< J, spent since the start
-  double collapse = 0;      ///< J, in points that lost most of their volume
+  Sym3 sigma;           ///< Pa, mean Cauchy stress, tension positive
+  double eqps = 0;      ///< mean over the points
+  double eqps_max = 0;  ///< of its points
+  double elastic = 0;   ///< J, V U(J_bar) + sum of W_bar
+  double plastic = 0;   ///< J, spent since the start
+  double collapse = 0;  ///< J, in points that lost most of their volume
 };
 
 double von_mises(const Sym3& sigma);
 
 /// sigma_m of the elements as in the last internal_force: null for U'(v/V) of the material.
-ElementResult evaluate(const Elements& elements, const State& s, SlotId slot, const Field<double, SlotId>* sigma_m = nullptr);
+ElementResult evaluate(const Elements& elements, const State& s, SlotId slot,
+                       const Field<double, SlotId>* sigma_m = nullptr);
 
 struct StoredEnergy {
   double elastic = 0, plastic = 0, collapse = 0;

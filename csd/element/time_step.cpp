@@ -22,7 +22,8 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
       const SlotId slot(block * lanes + l);
       const double omega2 = s.omega2[slot] * distortion_[slot];
       for (int a = 0; a < 8; ++a)
-        work(l, omega2 * mass_[size_t(block * 8 + a) * lanes + size_t(l)], NodeId(nodes[a * lanes + l]), mass_[size_t(block * 8 + a) * lanes + size_t(l)]);
+        work(l, omega2 * mass_[size_t(block * 8 + a) * lanes + size_t(l)], NodeId(nodes[a * lanes + l]),
+             mass_[size_t(block * 8 + a) * lanes + size_t(l)]);
     }
   };
   for_coloured_blocks(el.blocks, [&](int block, int) {
@@ -35,23 +36,35 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   });
 }
 
+namespace {
+
+/// Bound over centroid part, for the elements of a block.
+template <class M>
+[[gnu::flatten]] void block_distortion(const Elements& el, const M& material, const double* history, int block,
+                                       const Aligned<double>& masses, const State& s,
+                                       Field<double, SlotId>& distortion) {
+  for (int l = 0; l < lanes; l += Pack::size) {
+    const SlotId slot(block * lanes + l);
+    Pack mass[8];
+    for (int a = 0; a < 8; ++a) mass[a] = Pack::load(&masses[size_t(block * 8 + a) * lanes + size_t(l)]);
+    const Pack V0 = Pack::load(&s.V0[slot]), volume = Pack::load(&s.volume[slot]);
+    const Pack sigma = material.volumetric.mean_stress(volume / V0);
+    const Corners<Pack> x = gather(s.x.data(), el.blocks.nodes_of(block) + l);
+    const Pack bound = omega2_bound<Pack>(material, x, V0, mass, sigma, history + l);
+    (bound / Pack::load(&s.omega2[slot])).store(&distortion[slot]);
+  }
+}
+
+}  // namespace
+
 void TimeStep::refresh(const Elements& el, const State& s) {
   share_masses(el, s);
   for_blocks(el.blocks, [&](int block, int body) {
-    const int32_t* nodes = el.blocks.nodes_of(block);
     std::visit(
         [&]<class M>(const M& material) {
-          const double* history = s.history[size_t(body)].data() +
-                                  size_t(block - el.blocks.first_block[size_t(body)]) * 8 * M::components * lanes;
-          for (int l = 0; l < lanes; l += Pack::size) {
-            const SlotId slot(block * lanes + l);
-            Pack mass[8];
-            for (int a = 0; a < 8; ++a) mass[a] = Pack::load(&mass_[size_t(block * 8 + a) * lanes + size_t(l)]);
-            const Pack V0 = Pack::load(&s.V0[slot]), volume = Pack::load(&s.volume[slot]);
-            const Pack sigma = material.volumetric.mean_stress(volume / V0);
-            const Pack bound = omega2_bound<Pack>(material, gather(s.x.data(), nodes + l), V0, mass, sigma, history + l);
-            (bound / Pack::load(&s.omega2[slot])).store(&distortion_[slot]);
-          }
+          const size_t in_body = size_t(block - el.blocks.first_block[size_t(body)]);
+          const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
+          block_distortion(el, material, history, block, mass_, s, distortion_);
         },
         el.materials[size_t(body)]);
   });

@@ -7,10 +7,10 @@
 
 namespace bw::csd {
 
-/// omega_max^2 <= max over elements of lambda_max(K_e, M_e) for any share-out of the nodes' masses with sum M_e = M. The own shares are
-/// one; each refresh moves mass, at every node, to the elements in proportion to omega_e^2 m_e, so that stiff elements
-/// borrow from soft neighbours and the bound comes down to what the assembled model allows.
-/// The bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
+/// omega_max^2 <= max over elements of lambda_max(K_e, M_e) for any share-out of the nodes' masses with sum M_e = M.
+/// The own shares are one; each refresh moves mass, at every node, to the elements in proportion to omega_e^2 m_e, so
+/// that stiff elements borrow from soft neighbours and the bound comes down to what the assembled model allows. The
+/// bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
 /// each element's is scaled by its centroid part, which follows all of its change of size and shape but distortion.
 class TimeStep {
  public:
@@ -23,7 +23,7 @@ class TimeStep {
 
   /// The topology or the masses have changed.
   void renew() { stale_ = true; }
-  static constexpr int refresh_steps = 16;
+  static constexpr int refresh_steps = 24;
 
  private:
   void share_masses(const Elements& elements, const State& s);

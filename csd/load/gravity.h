@@ -17,7 +17,8 @@ struct Gravity {
   }
 
   void select(const Mesh&) {}
-  void add(const Mesh&, const Field<Vec3, NodeId>&, const Field<double, NodeId>& m, double, Field<Vec3, NodeId>& f) const {
+  void add(const Mesh&, const Field<Vec3, NodeId>&, const Field<double, NodeId>& m, double,
+           Field<Vec3, NodeId>& f) const {
     parallel_for(int64_t(f.size()), [&](int64_t n) { f[NodeId(n)] += m[NodeId(n)] * acceleration; });
   }
 };

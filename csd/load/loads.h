@@ -15,8 +15,9 @@ class Loads {
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
   /// Forces at positions s.x and time t; added to s.f.
   void add(const Mesh& mesh, double t, State& s);
-  /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are replaced.
-  /// The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new nodes.
+  /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are
+  /// replaced. The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new
+  /// nodes.
   void replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s);
   /// W: power of the forces of the last add() at the velocities s.v.
   double power(const State& s) const;

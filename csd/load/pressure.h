@@ -24,7 +24,8 @@ struct Pressure {
   }
 
   void select(const Mesh& mesh) { set_ = face_sets(mesh, faces, place); }
-  void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t, Field<Vec3, NodeId>& f) const {
+  void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
+           Field<Vec3, NodeId>& f) const {
     const double p = table.at(t);
     if (p == 0) return;
     for (Face face : set_) {

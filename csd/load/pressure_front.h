@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The prescribed detonation load, eq (18): a front runs along an axis; behind it p = peak exp(-d / length), d = distance
-// behind the front; ahead of it nothing.
+// The prescribed detonation load, eq (18): a front runs along an axis; behind it p = peak exp(-d / length), d =
+// distance behind the front; ahead of it nothing.
 #pragma once
 #include <cmath>
 #include <string>
@@ -21,12 +21,14 @@ struct PressureFront {
   template <class K>
   void describe(K& k) {
     k.required("peak", peak, dim::pressure, "pressure at the front, eq (18): 1e11 dyn/cm^2 in the paper");
-    k.required("decay", decay, dim::per_length, "the pressure behind the front falls by exp(-decay d), eq (18): 0.1 /cm in the paper");
+    k.required("decay", decay, dim::per_length,
+               "the pressure behind the front falls by exp(-decay d), eq (18): 0.1 /cm in the paper");
     k.required("speed", speed, dim::velocity, "of the front: 7.2e5 cm/s in the paper");
     k.optional("axis", axis, dim::none, "direction in which the front runs (of any length)");
     k.optional("start", start, dim::length, "a point of the front at start_time");
     k.optional("start_time", start_time, dim::time, "when the front stands at `start`");
-    k.required("faces", faces, "names of the face sets that are loaded: the original inner surface; faces made by cracks never are");
+    k.required("faces", faces,
+               "names of the face sets that are loaded: the original inner surface; faces made by cracks never are");
     k.expect(peak >= 0, "peak", "a pressure >= 0");
     k.expect(decay >= 0, "decay", "a number per length >= 0");
     k.expect(speed > 0, "speed", "a positive velocity");
@@ -40,7 +42,8 @@ struct PressureFront {
     const double behind = speed * (t - start_time) - dot(x - start, unit(axis));
     return t >= start_time && behind >= 0 ? peak * std::exp(-decay * behind) : 0;  // eq (18)
   }
-  void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t, Field<Vec3, NodeId>& f) const {
+  void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
+           Field<Vec3, NodeId>& f) const {
     for (Face face : set_) {
       const auto n = mesh.nodes_of(face);
       const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};

@@ -15,7 +15,8 @@ namespace bw::csd {
 ///   respond(trial, history)  end of the step; commits the model's own history (from component 6 on) but not A
 ///   plastic_work(eqps) J/m^3 of reference volume spent since the start
 template <class M>
-concept Material = std::derived_from<M, Elastic> && requires(const M m, const Trial<double>& t, double* history, double eqps) {
+concept Material = std::derived_from<M, Elastic> &&
+    requires(const M m, const Trial<double>& t, double* history, double eqps) {
   { M::name } -> std::convertible_to<const char*>;
   { M::components } -> std::convertible_to<int>;
   { M::plastic } -> std::convertible_to<bool>;

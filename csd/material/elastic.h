@@ -9,10 +9,10 @@
 namespace bw::csd {
 
 struct Elastic {
-  double density = 0;   ///< kg/m^3, reference
-  double E_young = 0;   ///< Pa
-  double nu = 0;        ///< Poisson's ratio
-  double mu = 0;        ///< Pa, shear modulus
+  double density = 0;  ///< kg/m^3, reference
+  double E_young = 0;  ///< Pa
+  double nu = 0;       ///< Poisson's ratio
+  double mu = 0;       ///< Pa, shear modulus
   Volumetric volumetric;
 
   Elastic() = default;

@@ -7,8 +7,8 @@
 
 namespace bw::csd {
 
-/// Trace/3 of b_bar = s/mu + x 1 with det b_bar = 1: root near 1 of x^3 - q/2 x + r - 1 = 0, q = |s/mu|^2, r = det(s/mu).
-/// Metals have q < 1e-2, where two Newton steps with a reciprocal by series reach round-off.
+/// Trace/3 of b_bar = s/mu + x 1 with det b_bar = 1: root near 1 of x^3 - q/2 x + r - 1 = 0, q = |s/mu|^2, r =
+/// det(s/mu). Metals have q < 1e-2, where two Newton steps with a reciprocal by series reach round-off.
 template <class T>
 T third_trace_of_metal(T q, T r) {
   T x = T(1) + (T(0.5) * q - r) * T(1.0 / 3.0);
@@ -18,8 +18,8 @@ T third_trace_of_metal(T q, T r) {
   }
   return x;
 }
-/// The same for any q. x_above: a value at or above the root, e.g. the trial's trace/3 (the cubic is convex and rising there, so
-/// Newton comes down without overshoot). Lanes stop one by one, so that they don't see each other.
+/// The same for any q. x_above: a value at or above the root, e.g. the trial's trace/3 (the cubic is convex and rising
+/// there, so Newton comes down without overshoot). Lanes stop one by one, so that they don't see each other.
 template <class T>
 [[gnu::noinline]] T third_trace_by_newton(T q, T r, T x_above) {
   T x = x_above;
@@ -35,7 +35,8 @@ template <class T>
 T isochoric_third_trace(T q, T r, T x_above) {
   const T x = third_trace_of_metal(q, r);
   const auto large = q > T(1e-2);
-  if (any(large)) [[unlikely]] return select(large, third_trace_by_newton(q, r, x_above), x);
+  if (any(large)) [[unlikely]]
+    return select(large, third_trace_by_newton(q, r, x_above), x);
   return x;
 }
 
@@ -68,14 +69,15 @@ struct J2 : Elastic {
   /// Radial return (VALIDATION A.2, steps 4-7) of the lanes that yield; the others keep their history.
   template <class T, class Lanes>
   Response<T> flow_plastically(const Trial<T>& t, T k_trial, T s2, T eqps, Lanes yields, double* history) const {
-    const T third_bar = t.iso * t.third_trace;                    // tr b_bar / 3
+    const T third_bar = t.iso * t.third_trace;  // tr b_bar / 3
     const T mu_bar = T(mu) * third_bar, norm = sqrt(s2);
-    const T D = flow.multiplier(norm, mu_bar, eqps);              // gamma dt, eqs (10)-(13)
-    const T ratio = T(1) - T(2) * mu_bar * D / norm;              // s = ratio s_trial, eq (11)
-    const T e = t.iso * ratio, e2 = e * e;                        // s / mu = e dev b^e
+    const T D = flow.multiplier(norm, mu_bar, eqps);  // gamma dt, eqs (10)-(13)
+    const T ratio = T(1) - T(2) * mu_bar * D / norm;  // s = ratio s_trial, eq (11)
+    const T e = t.iso * ratio, e2 = e * e;            // s / mu = e dev b^e
     const T x = isochoric_third_trace(e2 * t.dev2, e2 * e * t.dev_det, third_bar);
-    // b_bar = s/mu + x 1, pulled back: A = ratio (A - t G) + x / iso G, as b^e = b_bar / iso; differs from eq (9): exact
-    const T add = x * (t.J_squared * (t.iso * t.iso)) - ratio * t.third_trace;  // 1/iso = J^2 iso^2
+    // b_bar = s/mu + x 1, pulled back: A = ratio (A - t G) + x / iso G, as b^e = b_bar / iso; differs from eq (9):
+    // exact
+    const T add = x * (t.J_squared * (t.iso * t.iso)) - ratio * t.third_trace;            // 1/iso = J^2 iso^2
     store(history + 6 * lanes, select(yields, eqps + T(0.81649658092772603) * D, eqps));  // eq (8): sqrt(2/3) gamma
     return {select(yields, k_trial * ratio, k_trial), select(yields, ratio, T(1)), select(yields, add, T(0)), true};
   }

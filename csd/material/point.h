@@ -25,8 +25,12 @@ inline void store(double* p, Pack a) { a.store(p); }
 
 template <class T>
 Sym<T> load_sym(const double* p) {
-  return {load<T>(p),         load<T>(p + lanes),     load<T>(p + 2 * lanes), load<T>(p + 3 * lanes),
-          load<T>(p + 4 * lanes), load<T>(p + 5 * lanes)};
+  return {load<T>(p),
+          load<T>(p + lanes),
+          load<T>(p + 2 * lanes),
+          load<T>(p + 3 * lanes),
+          load<T>(p + 4 * lanes),
+          load<T>(p + 5 * lanes)};
 }
 template <class T>
 void store_sym(double* p, const Sym<T>& a) {
@@ -36,13 +40,15 @@ void store_sym(double* p, const Sym<T>& a) {
 
 /// b^e from h_k = A^kl g_l.
 template <class T>
-Sym<T> left_cauchy_green(const Vec<T>& h1, const Vec<T>& h2, const Vec<T>& h3, const Vec<T>& g1, const Vec<T>& g2, const Vec<T>& g3) {
-  return {h1.x * g1.x + h2.x * g2.x + h3.x * g3.x, h1.y * g1.y + h2.y * g2.y + h3.y * g3.y, h1.z * g1.z + h2.z * g2.z + h3.z * g3.z,
-          h1.x * g1.y + h2.x * g2.y + h3.x * g3.y, h1.x * g1.z + h2.x * g2.z + h3.x * g3.z, h1.y * g1.z + h2.y * g2.z + h3.y * g3.z};
+Sym<T> left_cauchy_green(const Vec<T>& h1, const Vec<T>& h2, const Vec<T>& h3, const Vec<T>& g1, const Vec<T>& g2,
+                         const Vec<T>& g3) {
+  return {h1.x * g1.x + h2.x * g2.x + h3.x * g3.x, h1.y * g1.y + h2.y * g2.y + h3.y * g3.y,
+          h1.z * g1.z + h2.z * g2.z + h3.z * g3.z, h1.x * g1.y + h2.x * g2.y + h3.x * g3.y,
+          h1.x * g1.z + h2.x * g2.z + h3.x * g3.z, h1.y * g1.z + h2.y * g2.z + h3.y * g3.z};
 }
 
-/// det b^e = J^2 from the history and the Jacobian. A point on its way to inversion must stay finite: below J = 1e-6 the guard
-/// of the element has long taken over.
+/// det b^e = J^2 from the history and the Jacobian. A point on its way to inversion must stay finite: below J = 1e-6
+/// the guard of the element has long taken over.
 template <class T>
 T squared_ratio(const Sym<T>& A, T det_g) {
   return max(det(A) * (det_g * det_g), T(1e-12));

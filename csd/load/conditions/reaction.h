@@ -10,9 +10,9 @@ namespace bw::csd {
 /// The forces R that a condition puts on its nodes, its impulses, and the energy it brings in.
 struct Reaction {
   std::vector<NodeId> nodes;
-  std::vector<Vec3> R;     ///< N, at s.t
-  Vec3 impulse;            ///< N s, on the nodes during the last step
-  double work = 0;         ///< J, since the start; kinetic energy lost in impacts is negative work
+  std::vector<Vec3> R;  ///< N, at s.t
+  Vec3 impulse;         ///< N s, on the nodes during the last step
+  double work = 0;      ///< J, since the start; kinetic energy lost in impacts is negative work
 
   void renew(const std::vector<NodeId>& set, size_t node_count) {
     std::vector<Vec3> at(node_count);
@@ -32,7 +32,8 @@ struct Reaction {
     work += 0.5 * s.m[n] * dot(dv, v + s.v[n]);
     s.v[n] = v;
   }
-  /// The i-th node's force loses `taken` (what it gets from the condition is -taken). s.v: its velocity during the step dt.
+  /// The i-th node's force loses `taken` (what it gets from the condition is -taken). s.v: its velocity during the step
+  /// dt.
   void take_force(State& s, size_t i, const Vec3& taken, double dt) {
     const Vec3 mean = 0.5 * dt * (R[i] - taken);
     impulse += mean;

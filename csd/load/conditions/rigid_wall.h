@@ -8,9 +8,10 @@
 
 namespace bw::csd {
 
-/// A rigid plane that no node crosses. A node that would is put on it and loses its normal velocity: an inelastic impact of the
-/// lumped mass, whose energy is booked. It stays while its body as a whole moves towards the plane; afterwards it leaves
-/// when it is pulled. (The published Taylor bars hold the foot on the wall, VALIDATION S7; free to lift, its rim curls up.)
+/// A rigid plane that no node crosses. A node that would is put on it and loses its normal velocity: an inelastic
+/// impact of the lumped mass, whose energy is booked. It stays while its body as a whole moves towards the plane;
+/// afterwards it leaves when it is pulled. (The published Taylor bars hold the foot on the wall, VALIDATION S7; free to
+/// lift, its rim curls up.)
 struct RigidWall {
   static constexpr auto name = "rigid_wall";
   Vec3 point{}, normal{};
@@ -23,7 +24,8 @@ struct RigidWall {
     k.required("normal", normal, dim::none, "of the plane, into the half space where the nodes are (of any length)");
     k.choice("friction", friction, {"none", "stick"}, "none: nodes slide freely; stick: nodes in contact don't slide");
     k.choice("separation", separation, {"rebound", "node"},
-             "rebound: nodes in contact stay while their body's momentum leads to the wall, then each leaves when it is pulled; "
+             "rebound: nodes in contact stay while their body's momentum leads to the wall, then each leaves when it "
+             "is pulled; "
              "node: each leaves when it is pulled, from the start");
     k.optional("nodes", nodes, "name of the node set that the wall stops; empty: all nodes");
     k.expect(norm(normal) > 0, "normal", "a direction other than (0, 0, 0)");

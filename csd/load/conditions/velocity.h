@@ -21,9 +21,12 @@ struct PrescribedVelocity {
   void describe(K& k) {
     k.required("nodes", nodes, "name of the node set");
     k.required("value", value, dim::velocity, "velocity of the nodes");
-    k.choice("components", components, {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which components are prescribed; the others are free");
+    k.choice("components", components, {"x", "y", "z", "xy", "xz", "yz", "xyz"},
+             "which components are prescribed; the others are free");
     struct Factor : Table {
-      void describe(K& k) { this->describe_with(k, "factors", dim::none, "on `value`; linear between, constant outside"); }
+      void describe(K& k) {
+        this->describe_with(k, "factors", dim::none, "on `value`; linear between, constant outside");
+      }
     };
     std::optional<Factor> table;
     k.table("factor", table, "lets the velocity change in time");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A crack in the step changes mass, momentum and energy by nothing; a finite-threshold-free run is the run without fracture.
+// A crack in the step changes mass, momentum and energy by nothing; a finite-threshold-free run is the run without
+// fracture.
 #include <gtest/gtest.h>
 
 #include "solid_scene.h"
@@ -8,8 +9,12 @@ namespace bw::csd {
 namespace {
 
 Model expanding(double limit, const FilterCase& filter = {}) {
-  Model m = make_model(box({0, 0, 0}, {0.04, 0.01, 0.01}, {12, 3, 3}, 0.1), copper_j2(),
-                       [](const Vec3& X) { return Vec3{1.5e4 * (X.x - 0.02), 0, 0}; }, {}, {}, filter);
+  Model m = make_model(
+      box({0, 0, 0}, {0.04, 0.01, 0.01}, {12, 3, 3}, 0.1), copper_j2(),
+      [](const Vec3& X) {
+        return Vec3{1.5e4 * (X.x - 0.02), 0, 0};
+      },
+      {}, {}, filter);
   if (limit > 0) {
     FractureInput input;
     input.criterion.model = EqpsLimit{limit};
@@ -33,7 +38,8 @@ TEST(Cracks, KeepMassMomentumAndEnergy) {
       const EnergyRow before = energy_row(m.physics, m.state);
       Vec3 p0, L0, p1, L1;
       for (int i = 0; i < m.mesh.node_count(); ++i)
-        p0 += m.state.m[NodeId(i)] * m.state.v[NodeId(i)], L0 += cross(m.state.x[NodeId(i)], m.state.m[NodeId(i)] * m.state.v[NodeId(i)]);
+        p0 += m.state.m[NodeId(i)] * m.state.v[NodeId(i)],
+            L0 += cross(m.state.x[NodeId(i)], m.state.m[NodeId(i)] * m.state.v[NodeId(i)]);
       Vec3 f0, f1;
       for (const Vec3& f : m.state.f) f0 += f;
       if (!m.physics.cracks->advance(m)) continue;
@@ -42,7 +48,8 @@ TEST(Cracks, KeepMassMomentumAndEnergy) {
       double mass1 = 0;
       for (double mass : m.state.m) mass1 += mass;
       for (int i = 0; i < m.mesh.node_count(); ++i)
-        p1 += m.state.m[NodeId(i)] * m.state.v[NodeId(i)], L1 += cross(m.state.x[NodeId(i)], m.state.m[NodeId(i)] * m.state.v[NodeId(i)]);
+        p1 += m.state.m[NodeId(i)] * m.state.v[NodeId(i)],
+            L1 += cross(m.state.x[NodeId(i)], m.state.m[NodeId(i)] * m.state.v[NodeId(i)]);
       for (const Vec3& f : m.state.f) f1 += f;
       const EnergyRow after = energy_row(m.physics, m.state);
       EXPECT_NEAR(mass1, mass0, 1e-14 * mass0);

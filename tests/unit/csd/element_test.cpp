@@ -156,23 +156,27 @@ TEST(S5, HydrostaticCompression) {
 
 TEST(Collapse, GuardIsTheEnergysFiniteDifferenceAndPushesBack) {
   OneElement<NeoHooke> e(copper_elastic(), random_hex(1, 0));
-  for (const double push : {0.5, 0.8, 1.1}) {  // corner 6 towards (and beyond) the opposite one: points collapse, then invert
+  for (const double push :
+       {0.5, 0.8, 1.1}) {  // corner 6 towards (and beyond) the opposite one: points collapse, then invert
     Corners<double> x = e.X;
     x.a[6] -= push * Vec3{1, 1, 1};
     const auto r = e.force(x);
     ASSERT_GT(r.volume, 0);
     const Columns<double> g = columns_of(modes_of(x));
     double ratio = 1e300;
-    for (int i = 0; i < 8; ++i) ratio = std::fmin(ratio, triple(g.at(0, i), g.at(1, i), g.at(2, i)) / e.J0(i) / (r.volume / e.V0));
+    for (int i = 0; i < 8; ++i)
+      ratio = std::fmin(ratio, triple(g.at(0, i), g.at(1, i), g.at(2, i)) / e.J0(i) / (r.volume / e.V0));
     EXPECT_EQ(r.collapsed > 0, ratio < collapse_ratio) << push;
     const auto energy = [&](const Corners<double>& at) {
       Columns<double> q{}, gg = columns_of(modes_of(at));
       double sigma_m = 0, v = volume_of(modes_of(at));
-      return collapse_guard(gg, e.history.data(), NeoHooke::components, v / e.V0, v, e.material.volumetric.kappa, q, sigma_m);
+      return collapse_guard(gg, e.history.data(), NeoHooke::components, v / e.V0, v, e.material.volumetric.kappa, q,
+                            sigma_m);
     };
     Columns<double> q{};
     double sigma_m = 0;
-    collapse_guard(g, e.history.data(), NeoHooke::components, r.volume / e.V0, r.volume, e.material.volumetric.kappa, q, sigma_m);
+    collapse_guard(g, e.history.data(), NeoHooke::components, r.volume / e.V0, r.volume, e.material.volumetric.kappa, q,
+                   sigma_m);
     add_mean_stress(g, sigma_m, q);
     const Corners<double> f = forces_from_columns(q);
     for (int a = 0; a < 8; ++a)

@@ -21,7 +21,8 @@ TEST(Filter, ConstantPressureStays) {
     first_forces(m);
     const double J = 0.97 * 0.97 * 0.97, p = 0.5 * copper.volumetric.kappa * (J - 1 / J);
     for (int e = 0; e < m.mesh.elem_count(); ++e)
-      EXPECT_NEAR((*m.physics.filter->mean_stress())[m.physics.elements.blocks.slot[ElemId(e)]], p, 1e-12 * std::fabs(p));
+      EXPECT_NEAR((*m.physics.filter->mean_stress())[m.physics.elements.blocks.slot[ElemId(e)]], p,
+                  1e-12 * std::fabs(p));
   }
 }
 
@@ -69,8 +70,11 @@ TEST(Filter, SelfAdjointForceIsTheEnergysFiniteDifference) {
 
 TEST(Filter, EnergyIsConserved) {
   for (const char* kind : {"plain", "self_adjoint"}) {
-    const auto velocity = [](const Vec3& X) { return Vec3{30 * std::sin(50 * X.y), 20 * std::cos(70 * X.z), 40 * X.x}; };
-    Model m = make_model(box({0, 0, 0}, {0.1, 0.1, 0.1}, {5, 5, 5}, 0.1), copper_elastic(), velocity, {}, {}, {kind, 0.5});
+    const auto velocity = [](const Vec3& X) {
+      return Vec3{30 * std::sin(50 * X.y), 20 * std::cos(70 * X.z), 40 * X.x};
+    };
+    Model m =
+        make_model(box({0, 0, 0}, {0.1, 0.1, 0.1}, {5, 5, 5}, 0.1), copper_elastic(), velocity, {}, {}, {kind, 0.5});
     const double dt = 0.3 * stable(m);
     for (int n = 0; n < 1000; ++n) step(m, dt);
     const EnergyRow e = energy_row(m.physics, m.state);
@@ -95,7 +99,10 @@ TEST(Filter, PlaneWaveIsNotDamped) {  // S2b with filter: half sine of 20 cells 
   for (const char* kind : {"off", "plain", "self_adjoint"}) {
     const Elastic steel(7800, 206e9, 0.3);
     std::vector<ConditionKind> sides;
-    for (const auto& [set, normal] : {std::pair{"y_lower", Vec3{0, 1, 0}}, {"y_upper", Vec3{0, 1, 0}}, {"z_lower", Vec3{0, 0, 1}}, {"z_upper", Vec3{0, 0, 1}}}) {
+    for (const auto& [set, normal] : {std::pair{"y_lower", Vec3{0, 1, 0}},
+                                      {"y_upper", Vec3{0, 1, 0}},
+                                      {"z_lower", Vec3{0, 0, 1}},
+                                      {"z_upper", Vec3{0, 0, 1}}}) {
       Roller r;
       r.nodes = set, r.normal = normal;
       sides.emplace_back(r);
@@ -107,7 +114,8 @@ TEST(Filter, PlaneWaveIsNotDamped) {  // S2b with filter: half sine of 20 cells 
     for (int i = 0; i <= 100; ++i) t.times.push_back(T * i / 100), t.values.push_back(std::sin(M_PI * i / 100.0));
     pulse.factor = t;
     sides.emplace_back(pulse);
-    Model m = make_model(box({0, 0, 0}, {1, 0.01, 0.01}, {100, 1, 1}), NeoHooke(7800, 206e9, 0.3), {}, sides, {}, {kind, 0.5});
+    Model m = make_model(box({0, 0, 0}, {1, 0.01, 0.01}, {100, 1, 1}), NeoHooke(7800, 206e9, 0.3), {}, sides, {},
+                         {kind, 0.5});
     EXPECT_NEAR(steel.sound_speed(), c, 0.01);
     const double end = 0.9 / c;  // the pulse's middle stands at 0.8 m
     while (m.state.t < end) step(m, std::fmin(0.9 * stable(m), end - m.state.t));

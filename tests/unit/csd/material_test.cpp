@@ -10,7 +10,9 @@ namespace {
 const double mu = copper.mu, kappa = copper.volumetric.kappa;
 
 /// Unit cube deformed by F.
-Corners<double> cube(const Mat3& F) { return mapped(random_hex(1, 0), [&](const Vec3& X) { return F * X; }); }
+Corners<double> cube(const Mat3& F) {
+  return mapped(random_hex(1, 0), [&](const Vec3& X) { return F * X; });
+}
 Mat3 identity() { return Mat3::identity(); }
 
 TEST(A2, SimpleShear) {
@@ -78,7 +80,8 @@ TEST(A2, IsochoricThirdTrace) {
 /// A plastic path with turning axes.
 Mat3 path(double t) {
   Mat3 F = identity();
-  F(0, 0) = 1 + 0.3 * t, F(1, 1) = 1 - 0.2 * t, F(0, 1) = 0.8 * std::sin(3 * t), F(1, 2) = 0.5 * t * t, F(2, 0) = -0.4 * t;
+  F(0, 0) = 1 + 0.3 * t, F(1, 1) = 1 - 0.2 * t, F(0, 1) = 0.8 * std::sin(3 * t), F(1, 2) = 0.5 * t * t,
+       F(2, 0) = -0.4 * t;
   return F;
 }
 
@@ -90,7 +93,8 @@ TEST(A2, PlasticFlowIsIsochoric) {
   for (int n = 1; n <= 2000; ++n) {
     const Mat3 F = path(n / 1000.0);
     e.force(mapped(e.X, [&](const Vec3& X) { return F * X; }));
-    for (int i = 0; i < 8; ++i) worst = std::fmax(worst, std::fabs(det(load_sym<double>(e.at(i))) / start[size_t(i)] - 1));  // det C_p^-1
+    for (int i = 0; i < 8; ++i)
+      worst = std::fmax(worst, std::fabs(det(load_sym<double>(e.at(i))) / start[size_t(i)] - 1));  // det C_p^-1
   }
   EXPECT_GT(e.eqps(0), 1);
   EXPECT_LT(worst, 1e-12);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lane of a pack does what the scalar kernel does, bit for bit. Compiled without contraction to fused multiply-adds: which
-// product of a sum the compiler fuses is its choice, per instance of a template.
+// A lane of a pack does what the scalar kernel does, bit for bit. Compiled without contraction to fused multiply-adds:
+// which product of a sum the compiler fuses is its choice, per instance of a template.
 #pragma GCC optimize("fp-contract=off")
 #include <gtest/gtest.h>
 
@@ -28,9 +28,9 @@ TEST(A3, PackEqualsScalarBitByBit) {
     Pack V0;
     std::vector<ElementForce<double>> expected;
     for (int l = 0; l < Pack::size; ++l) {
-      const Corners<double> one = shaken(single[size_t(l)].X, uint64_t(50 + l), 0.01 * n * (l == 0 ? 0.01 : 1));  // one lane stays elastic
-      for (int a = 0; a < 8; ++a)
-        x.a[a].x.set(l, one.a[a].x), x.a[a].y.set(l, one.a[a].y), x.a[a].z.set(l, one.a[a].z);
+      const Corners<double> one =
+          shaken(single[size_t(l)].X, uint64_t(50 + l), 0.01 * n * (l == 0 ? 0.01 : 1));  // one lane stays elastic
+      for (int a = 0; a < 8; ++a) x.a[a].x.set(l, one.a[a].x), x.a[a].y.set(l, one.a[a].y), x.a[a].z.set(l, one.a[a].z);
       V0.set(l, single[size_t(l)].V0);
       expected.push_back(forces<double>(material, one, single[size_t(l)].V0, single[size_t(l)].history.data()));
     }

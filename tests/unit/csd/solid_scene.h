@@ -18,7 +18,9 @@
 namespace bw::csd {
 
 /// Goes into the test's report: run/verify shows it.
-inline void record(const char* name, double value) { testing::Test::RecordProperty(name, fmt::format("{:.3g}", value)); }
+inline void record(const char* name, double value) {
+  testing::Test::RecordProperty(name, fmt::format("{:.3g}", value));
+}
 
 inline const Elastic copper{8930, 117e9, 0.35};
 inline J2<LinearFlow> copper_j2() { return {copper, LinearFlow{400e6, 100e6}}; }
@@ -31,7 +33,8 @@ inline double noise(uint64_t seed, uint64_t i) { return 2 * uniform01(seed, i) -
 inline Corners<double> random_hex(uint64_t seed, double perturbation, double h = 1) {
   Corners<double> x;
   for (int a = 0; a < 8; ++a)
-    for (int d = 0; d < 3; ++d) x.a[a][d] = h * (0.5 * node_sign[a][d] + perturbation * noise(seed, uint64_t(3 * a + d)));
+    for (int d = 0; d < 3; ++d)
+      x.a[a][d] = h * (0.5 * node_sign[a][d] + perturbation * noise(seed, uint64_t(3 * a + d)));
   return x;
 }
 inline Corners<double> shaken(const Corners<double>& x, uint64_t seed, double size) {
@@ -59,7 +62,8 @@ struct OneElement {
     for (int i = 0; i < 8; ++i) {
       const double det = triple(g.at(0, i), g.at(1, i), g.at(2, i));
       store_sym(&history[size_t(i * M::components * lanes)],
-                metric(cross(g.at(1, i), g.at(2, i)), cross(g.at(2, i), g.at(0, i)), cross(g.at(0, i), g.at(1, i)), 1 / (det * det)));
+                metric(cross(g.at(1, i), g.at(2, i)), cross(g.at(2, i), g.at(0, i)), cross(g.at(0, i), g.at(1, i)),
+                       1 / (det * det)));
     }
   }
   double J0(int i) const { return 1 / std::sqrt(det(load_sym<double>(at(i)))); }
@@ -67,7 +71,8 @@ struct OneElement {
   double eqps(int i) const { return at(i)[6 * lanes]; }
   /// Forces at x; commits.
   ElementForce<double> force(const Corners<double>& x) {
-    return internal_force<double>(material, x, V0, history.data(), [&](double J) { return material.volumetric.mean_stress(J); });
+    return internal_force<double>(material, x, V0, history.data(),
+                                  [&](double J) { return material.volumetric.mean_stress(J); });
   }
   Point<double> point(const Corners<double>& x, int i) const {
     const Columns<double> g = columns_of(modes_of(x));
@@ -98,7 +103,8 @@ inline Mat3 rotation(const Vec3& axis, double angle) {
   Mat3 R;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) R(i, j) = (i == j ? c : 0) + (1 - c) * n[i] * n[j];
-  R(0, 1) -= s * n.z, R(1, 0) += s * n.z, R(0, 2) += s * n.y, R(2, 0) -= s * n.y, R(1, 2) -= s * n.x, R(2, 1) += s * n.x;
+  R(0, 1) -= s * n.z, R(1, 0) += s * n.z, R(0, 2) += s * n.y, R(2, 0) -= s * n.y, R(1, 2) -= s * n.x,
+      R(2, 1) += s * n.x;
   return R;
 }
 inline Mat3 full(const Sym3& s) { return {{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}}; }
@@ -111,8 +117,8 @@ inline double largest(const Mat3& a) {
 
 /// A model of one body, ready to step.
 inline Model make_model(Mesh mesh, const Materials& material, const std::function<Vec3(const Vec3&)>& velocity = {},
-                        std::vector<ConditionKind> conditions = {}, std::vector<LoadKind> loads = {}, FilterCase filter = {},
-                        BulkViscosity viscosity = {}) {
+                        std::vector<ConditionKind> conditions = {}, std::vector<LoadKind> loads = {},
+                        FilterCase filter = {}, BulkViscosity viscosity = {}) {
   Elements el;
   el.blocks = make_blocks(mesh, 1);
   el.materials.push_back(material);
@@ -133,7 +139,8 @@ inline Model make_model(Mesh mesh, const Materials& material, const std::functio
   m.physics.energy.initial = energy_row(m.physics, m.state).residual;
   return m;
 }
-inline Mesh box(const Vec3& lower, const Vec3& upper, std::vector<int> cells, double perturbation = 0, bool split = false) {
+inline Mesh box(const Vec3& lower, const Vec3& upper, std::vector<int> cells, double perturbation = 0,
+                bool split = false) {
   Box b;
   b.lower = lower, b.upper = upper, b.cells = std::move(cells), b.is_split = split;
   Mesh mesh = b.make();

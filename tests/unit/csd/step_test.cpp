@@ -36,7 +36,7 @@ TEST(S12, ElasticBlockKeepsEnergyAndMomenta) {
     largest = std::fmax(largest, std::fabs(r));
     (n <= steps / 2 ? mean_early : mean_late) += r / (steps / 20);
   }
-  EXPECT_LT(largest, 2e-3);                           // bounded, of order (omega dt)^2
+  EXPECT_LT(largest, 2e-3);                            // bounded, of order (omega dt)^2
   EXPECT_LT(std::fabs(mean_late - mean_early), 1e-4);  // no drift
   EXPECT_LT(norm(momentum(m.state) - p0), 1e-11 * norm(p0));
   EXPECT_LT(norm(angular_momentum(m.state) - L0), 1e-10 * norm(L0));
@@ -83,7 +83,11 @@ TEST(S12, WorkFormCloses) {
 TEST(S12, PlasticImpactWithAWall) {
   RigidWall wall;
   wall.normal = {0, 0, 1};
-  Model m = make_model(box({0, 0, 0}, {0.01, 0.01, 0.03}, {4, 4, 12}), copper_j2(), [](const Vec3&) { return Vec3{0, 0, -200}; }, {wall});
+  Model m = make_model(box({0, 0, 0}, {0.01, 0.01, 0.03}, {4, 4, 12}), copper_j2(),
+                       [](const Vec3&) {
+                         return Vec3{0, 0, -200};
+                       },
+                       {wall});
   const double E0 = m.physics.energy.initial, p0 = momentum(m.state).z;
   double impulse = 0;
   for (int n = 0; n < 1500; ++n) {
@@ -114,8 +118,11 @@ TEST(S12, PrescribedVelocityBringsItsWork) {
 TEST(S12, ViscosityIsBooked) {
   RigidWall wall;
   wall.normal = {1, 0, 0};
-  Model m = make_model(box({0, 0, 0}, {0.1, 0.01, 0.01}, {40, 1, 1}), copper_elastic(), [](const Vec3&) { return Vec3{-20, 0, 0}; }, {wall}, {}, {},
-                       {0.06, 1.5});
+  Model m = make_model(box({0, 0, 0}, {0.1, 0.01, 0.01}, {40, 1, 1}), copper_elastic(),
+                       [](const Vec3&) {
+                         return Vec3{-20, 0, 0};
+                       },
+                       {wall}, {}, {}, {0.06, 1.5});
   for (int n = 0; n < 200; ++n) step(m, 0.9 * stable(m));
   const EnergyRow e = energy_row(m.physics, m.state);
   EXPECT_GT(e.viscosity, 1e-4 * m.physics.energy.initial);
@@ -129,14 +136,14 @@ TEST(Step, ThreadsDoNotChangeABit) {
     omp_set_num_threads(threads);
     Mesh mesh = box({0, 0, 0}, {0.1, 0.1, 0.1}, {14, 13, 12}, 0.15);
     renumber_for_locality(mesh);
-    Model m = make_model(std::move(mesh), copper_j2(), [](const Vec3& X) { return 5.0 * wild(X); }, {}, {}, {"self_adjoint", 0.5}, {0.06, 1.5});
+    Model m = make_model(std::move(mesh), copper_j2(), [](const Vec3& X) { return 5.0 * wild(X); }, {}, {},
+                         {"self_adjoint", 0.5}, {0.06, 1.5});
     ASSERT_GT(m.physics.elements.blocks.colours.size(), 1u);
     for (int n = 0; n < 30; ++n) step(m, 0.9 * stable(m));
     x.push_back(m.state.x);
   }
   omp_set_num_threads(before);
-  for (size_t i = 1; i < x.size(); ++i)
-    EXPECT_EQ(0, memcmp(x[0].data(), x[i].data(), x[0].size() * sizeof(Vec3)));
+  for (size_t i = 1; i < x.size(); ++i) EXPECT_EQ(0, memcmp(x[0].data(), x[i].data(), x[0].size() * sizeof(Vec3)));
 }
 
 /// Largest eigenfrequency of the whole model by dense eigenvalues.
@@ -179,7 +186,8 @@ TEST(StableStep, NeverUnsafeForTheAssembledModel) {
         dt = stable(m);
         EXPECT_LE(dt, exact * (1 + 1e-6));
       }
-      printf("split %d perturbation %.2f: stable/exact %.3f at first, %.3f after 30 refreshes\n", split, perturbation, first, dt / exact);
+      printf("split %d perturbation %.2f: stable/exact %.3f at first, %.3f after 30 refreshes\n", split, perturbation,
+             first, dt / exact);
       EXPECT_GE(dt, 0.65 * exact);
     }
 }
