@@ -9,7 +9,7 @@
 #include "cfd/amr/boundary.h"
 #include "cfd/amr/forest.h"
 #include "cfd/embed/body.h"
-#include "cfd/mix/medium.h"
+#include "cfd/medium.h"
 #include "cfd/regions.h"
 #include "common/app/cli.h"
 #include "coupling/case.h"

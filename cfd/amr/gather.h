@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "cfd/amr/boundary.h"
-#include "cfd/mix/medium.h"
+#include "cfd/medium.h"
 #include "cfd/state.h"
 
 namespace bw::cfd {

@@ -2,7 +2,7 @@
 // The end of a block's step: U_new = U + change, burn, traces of a material removed, limits of the state checked, and
 // what the next step needs to know about the block.
 #pragma once
-#include "cfd/mix/medium.h"
+#include "cfd/medium.h"
 #include "cfd/scheme/block_kernel.h"
 #include "cfd/source/burn.h"
 #include "cfd/state.h"

@@ -101,7 +101,7 @@ def main():
         faults += [f"{name}: threads change the result"] if different else []
         if name == "coupled":
             table = fields.history(folders[0] / "coupling_history.csv")
-            defect = np.nanmax(np.abs(table["impulse defect"]))
+            defect = np.nanmax(np.abs(table["impulse_defect"]))
             print(f"coupled: {len(table['window'])} windows, impulse defect {defect:.2g} of the exchanged impulse")
             faults += ["coupled: impulse lost"] if not defect <= 1e-12 else []
             continue  # cracks are thresholds: no golden numbers
