@@ -26,9 +26,16 @@ struct WallSide {
   Vec3 v;             ///< velocity of the wall at the crossing [m/s]
   int32_t face = -1;  ///< index into WetSurface::quads, -1: none (an open surface ends here)
 };
+/// Where on its face a crossing is: triangle `corner` of the face's fan (cfd/embed/scan.h), x = (1 - b - c) a + b b + c
+/// c.
+struct OnFace {
+  int32_t corner = 0;
+  double b = 0, c = 0;
+};
 /// A cut link between a cell and its upper neighbour: the crossing next to either.
 struct CutLink {
   WallSide below, above;
+  OnFace below_at, above_at;
 };
 
 class CutMap {
@@ -76,6 +83,7 @@ class CutMap {
   // --- building (scan.cpp, motion.cpp)
   // --------------------------------------------------------------------------------------
   void note_orphans() { may_have_orphans_ = true; }
+  std::vector<CutLink>& links() { return links_; }
   void add_link(const Index3& c, int d, const CutLink& link);
   /// Cells [first, last] of the line through c in direction d are in metal. Call after all links were added.
   void cover(Index3 c, int d, int first, int last);

@@ -17,7 +17,7 @@ struct Crossing {
   int32_t face;
   double at;  // in cell sizes from centre i, in [0, 1]
   Vec3 n;     // unit normal of the face, turned with the triangle
-  Vec3 v;
+  OnFace on;
   bool up;  // the triangle's normal points along +d
   bool thin;
 };
@@ -47,7 +47,7 @@ class LineScan {
   LineScan(const Lattice& g, int d, std::vector<Crossing>& out)
       : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
 
-  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) const {
+  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner) const {
     const Range ru = centres_between(g_, u_, std::min({a[u_], b[u_], c[u_]}), std::max({a[u_], b[u_], c[u_]}));
     if (ru.first > ru.last) return;
     const Range rv = centres_between(g_, v_, std::min({a[v_], b[v_], c[v_]}), std::max({a[v_], b[v_], c[v_]}));
@@ -58,13 +58,13 @@ class LineScan {
         if (s == 0 || side_of_line(b[u_], b[v_], c[u_], c[v_], qu, qv) != s ||
             side_of_line(c[u_], c[v_], a[u_], a[v_], qu, qv) != s)
           continue;
-        add(f, a, b, c, na, nb, iu, iv, qu, qv, s);
+        add(f, a, b, c, corner, iu, iv, qu, qv, s);
       }
   }
 
  private:
-  void add(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb, int iu, int iv, double qu,
-           double qv, int s) const {
+  void add(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, int iu, int iv, double qu, double qv,
+           int s) const {
     auto weight = [&](const Vec3& p, const Vec3& r) {
       return std::abs((p[u_] - qu) * (r[v_] - qv) - (p[v_] - qv) * (r[u_] - qu));
     };
@@ -103,9 +103,7 @@ class LineScan {
       const double at = norm(t), af = norm(f.area);
       // the mean normal of the quad is smoother, unless it is folded
       x.n = dot(t, f.area) > 0.5 * at * af && (f.area[d_] > 0) == (t[d_] > 0) ? f.area / af : t / at;
-      const auto& v = f.s.v;
-      const Vec3 vc = f.q[2] == f.q[3] ? v[f.q[2]] : 0.25 * ((v[f.q[0]] + v[f.q[2]]) + (v[f.q[1]] + v[f.q[3]]));
-      x.v = v[f.q[na]] + wb * (v[f.q[nb]] - v[f.q[na]]) + wc * (vc - v[f.q[na]]);  // a common velocity is kept exactly
+      x.on = {corner, wb, wc};
     }
     out_.push_back(x);
   }
@@ -123,7 +121,7 @@ std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g,
     const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
                     !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
     for_each_triangle(
-        s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int na, int nb) { lines(face, a, b, c, na, nb); });
+        s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) { lines(face, a, b, c, corner); });
   }
   std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
     if (a.line != b.line) return a.line < b.line;
@@ -146,7 +144,7 @@ void for_each_run(const Crossing* first, const Crossing* last, const Key& key, c
 
 WallSide side_of(const Crossing& x, bool from_below) {
   const bool flip = x.up == from_below;  // seen from below, the normal into the fluid points down
-  return {from_below ? x.at : 1 - x.at, flip ? -x.n : x.n, x.v, x.face};
+  return {from_below ? x.at : 1 - x.at, flip ? -x.n : x.n, {}, x.face};
 }
 
 Index3 line_cell(const Lattice& g, int d, uint64_t line) {
@@ -181,7 +179,7 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
                        [&](const Crossing* a, const Crossing* b) {
                          if (a->i < -1 || a->i >= lattice.n[d]) return;
                          c[d] = a->i;
-                         map.add_link(c, d, {side_of(*a, true), side_of(b[-1], false)});
+                         map.add_link(c, d, {side_of(*a, true), side_of(b[-1], false), a->on, b[-1].on});
                        });
                  });
   // all directions agree on a watertight surface; of an open one, each line in metal beyond it covers what it meets
@@ -203,7 +201,23 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
                  });
   }
   if (!watertight) map.note_orphans();
+  update_velocities(surface, map);
   return watertight;
+}
+
+void update_velocities(const coupling::WetSurface& surface, CutMap& map) {
+  const auto& v = surface.v;
+  const auto at = [&](int32_t face, const OnFace& on) {
+    const auto& q = surface.quads[size_t(face)];
+    const bool triangle = q[2] == q[3];
+    const Vec3 a = v[q[on.corner]], b = v[q[(on.corner + 1) % 4]];
+    const Vec3 c = triangle ? v[q[2]] : 0.25 * ((v[q[0]] + v[q[2]]) + (v[q[1]] + v[q[3]]));
+    return a + on.b * (b - a) + on.c * (c - a);  // a common velocity is kept exactly
+  };
+  for (CutLink& l : map.links()) {
+    l.below.v = at(l.below.face, l.below_at);
+    l.above.v = at(l.above.face, l.above_at);
+  }
 }
 
 }  // namespace bw::cfd

@@ -25,4 +25,7 @@ void for_each_triangle(const std::vector<Vec<T>>& x, const std::array<int32_t, 4
 /// line counts as metal.
 bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& map);
 
+/// The walls' velocities at all crossings, from surface.v: the surface has other velocities now, at the same places.
+void update_velocities(const coupling::WetSurface& surface, CutMap& map);
+
 }  // namespace bw::cfd

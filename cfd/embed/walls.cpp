@@ -25,6 +25,7 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
   const bool same = placed_ && surface.topo_version == surface_.topo_version && x.size() == surface_.x.size();
   if (same && x == surface_.x) {
     surface_.v = v;
+    update_velocities(surface_, map_);
   } else {
     std::vector<Vec3> before = x;  // where the nodes were, or their ancestors
     if (same) {
@@ -43,13 +44,19 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
     rescan(placed_ ? &before : nullptr);
   }
   placed_ = true;
+  if (!probes_current_) place_probes();
+  for (Probe& p : probes_) p.v = coupling::face_mean(surface_.v, surface_.quads[size_t(p.face)]);
+  values_.assign(2 * probes_.size(), 0.0);
+}
+
+void Walls::place_probes() {
   probes_ = find_probes(surface_, map_);
   std::stable_sort(probes_.begin(), probes_.end(),
                    [&](const Probe& a, const Probe& b) { return block_number(a.cell) < block_number(b.cell); });
   first_probe_.assign(size_t(blocks_[0]) * size_t(blocks_[1]) * size_t(blocks_[2]) + 1, 0);
   for (const Probe& p : probes_) ++first_probe_[block_number(p.cell) + 1];
   for (size_t b = 1; b < first_probe_.size(); ++b) first_probe_[b] += first_probe_[b - 1];
-  values_.assign(2 * probes_.size(), 0.0);
+  probes_current_ = true;
 }
 
 void Walls::end(const std::vector<Vec3>& x_end) {
@@ -61,6 +68,7 @@ void Walls::end(const std::vector<Vec3>& x_end) {
 }
 
 void Walls::rescan(const std::vector<Vec3>* x_before) {
+  probes_current_ = false;
   CutMap now;
   scan(surface_, lattice_, now);
   if (x_before) changes_ = compare(map_, now, swept_cells(surface_, *x_before, lattice_));

@@ -74,13 +74,14 @@ class Walls {
 
  private:
   void rescan(const std::vector<Vec3>* x_before);
+  void place_probes();
   size_t block_number(const Index3& cell) const;
 
   Lattice lattice_;
   GhostRules rules_;
   std::array<int, 3> block_, blocks_;
   double p_ref_;
-  bool placed_ = false;
+  bool placed_ = false, probes_current_ = false;
   coupling::WetSurface surface_;
   coupling::NodePlaces places_;
   Lips lips_;

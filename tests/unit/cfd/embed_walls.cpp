@@ -170,6 +170,23 @@ TEST(EmbedWalls, ACrackOpensNothingAndThenBlends) {
   EXPECT_GT(before, 4e5);
 }
 
+TEST(EmbedWalls, NewVelocitiesReachTheLinks) {
+  Windows run({{}, {0.05, 0.05, 0.05}, {20, 20, 20}});
+  WetSurface s = sphere({0.5, 0.5, 0.5}, 0.23, 7);
+  run.begin(s);
+  set_velocity(s, {3, 4, 5});
+  run.begin(s);  // the same place
+  int cuts = 0;
+  for (int i = 0; i < 19; ++i)
+    if (const CutLink* l = run.walls.map().link({i, 10, 10}, 0)) {
+      ++cuts;
+      EXPECT_EQ(l->below.v, (Vec3{3, 4, 5}));
+      EXPECT_EQ(l->above.v, (Vec3{3, 4, 5}));
+    }
+  EXPECT_EQ(cuts, 2);
+  for (const Probe& p : run.walls.probes()) EXPECT_LT(norm(p.v - Vec3{3, 4, 5}), 1e-15);
+}
+
 TEST(EmbedWalls, AFastThinBodyDoesNotMixItsSides) {
   // 5 mm of metal in cells of 50 mm, 15 mm a step: cells change sides without ever being covered
   Windows run({{}, {0.05, 0.05, 1}, {40, 8, 1}});
