@@ -98,7 +98,9 @@ WallStar wall_star(double rho, double p, double rho_c2, double G, double dv, boo
   if (dv > 0) return detail::shock(rho, p, rho_c2, G, dv);
   // a weak fan does not ask which gas it is: the closed form is within 1e-4 of p
   if (ideal || dv * dv * rho < 2.5e-5 * rho_c2) return detail::fan(rho, p, rho_c2, G, dv);
-  return detail::fan(rho, p, G, dv, stiffness);
+  const WallStar s = detail::fan(rho, p, G, dv, stiffness);
+  // where the stiffness collapses on the way (a mixed cell, an explosive in tension) the integration leads nowhere
+  return s.p > 0 && s.compress > 0 ? s : detail::fan(rho, p, rho_c2, G, dv);
 }
 
 }  // namespace bw::cfd

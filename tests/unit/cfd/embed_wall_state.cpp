@@ -42,6 +42,16 @@ TEST(EmbedWallState, IntegratedFanMatchesClosedForm) {
   }
 }
 
+TEST(EmbedWallState, CollapsingStiffnessGivesAPressure) {
+  for (const double floor : {-1e10, 0.0, 1.0})
+    for (double dv = -1; dv > -5000; dv *= 1.3) {
+      const WallStar s = wall_star(21.5, 7.4e5, 4e6, 2.6, dv, false, [&](double r, double) { return r > 0.999 ? 4e6 : floor; });
+      EXPECT_GE(s.p, 0) << dv;
+      EXPECT_LE(s.p, 7.4e5) << dv;
+      EXPECT_GT(s.compress, 0) << dv;
+    }
+}
+
 TEST(EmbedWallState, JwlRecedes) {  // F10c
   const Jwl tnt{371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1630, 7e9};
   const double rho = 1400, p = 1e10;
