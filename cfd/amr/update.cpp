@@ -102,10 +102,11 @@ class Update {
     e.alpha_min = min(e.alpha_min, Pack(alpha1));
     e.alpha_max = max(e.alpha_max, Pack(alpha1));
   }
-  bool unburnt(int k, int j, int i) const {
-    if (!in_.burn) return false;
+  /// Energy per mass of explosive that is still to be released.
+  double stored(int k, int j, int i) const {
+    if (!in_.burn) return 0;
     const Vec3 x = lower_ + Vec3{(i + 0.5) * shape_.h.x, (j + 0.5) * shape_.h.y, (k + 0.5) * shape_.h.z};
-    return in_.burn->stored(x, in_.t1) > 0;
+    return in_.burn->stored(x, in_.t1);
   }
 
   /// A cell with a trace, a floor or a broken state; sets lane l of W to what it became.
@@ -115,8 +116,11 @@ class Update {
     for (int q = 0; q < Cons::count; ++q) U[q] = row[q][i];
     double p = pair_.to_primitive(U, w, floors_);
     const double rho = U[Cons::arho1] + U[Cons::arho2];
-    if (std::isfinite(p) && rho >= floors_.rho && remove_trace(U, w, booked)) p = pair_.to_primitive(U, w, floors_);
-    const bool stores_energy = U[Cons::arho1] > 0 && unburnt(k, j, i);
+    if (std::isfinite(p) && rho >= floors_.rho && remove_trace(U, w, booked)) {
+      p = pair_.to_primitive(U, w, floors_);
+      booked.cleaned[Cons::rhoE] += (row[Cons::arho1][i] - U[Cons::arho1]) * stored(k, j, i) * shape_.cell_volume();
+    }
+    const bool stores_energy = U[Cons::arho1] > 0 && stored(k, j, i) > 0;
     const bool broken = !(U[Cons::arho1] + U[Cons::arho2] >= floors_.rho) || !(U[Cons::arho1] >= 0) ||
                         !(U[Cons::arho2] >= 0) || !std::isfinite(p);
     const bool low = !(p >= floors_.p) && !stores_energy;

@@ -41,8 +41,7 @@ struct Burn {
       for (int d = 0; d < 3; ++d) {
         const double below = lower[d] - h - p[d], above = p[d] - upper[d] - h;
         const double gap = std::max({below, above, 0.0}), reach = std::max(-below, -above);
-        const double end = std::max(reach, gap + upper[d] - lower[d] + 2 * h);
-        least += gap * gap, most += end * end;
+        least += gap * gap, most += reach * reach;
       }
       near = std::min(near, std::sqrt(least)), far = std::min(far, std::sqrt(most));
     }

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole flows, from a case's text to sums over the domain: conservation, invariants, equality of ways to the same
+// result.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "cfd/books.h"
+#include "cfd/build.h"
+#include "cfd/output.h"
+#include "cfd/step.h"
+#include "common/app/machine.h"
+
+namespace bw::cfd {
+namespace {
+
+Comm world() {
+  static int argc = 1;
+  static char name[] = "unit_cfd", *list[] = {name, nullptr}, **argv = list;
+  static Session session(argc, argv);
+  return session.world();
+}
+
+Case read_text(const std::string& text) {
+  CommandLine line;
+  line.case_file = testing::TempDir() + "/flow_" + std::to_string(getpid()) + ".toml";
+  std::ofstream(line.case_file) << "[time]\nend = 1\n" << text;
+  return read_case(line);
+}
+
+struct Flow {
+  Case cs;
+  Model m;
+  Sweep sweep;
+  Books books;
+  explicit Flow(const std::string& text, bool skip_quiet = true)
+      : cs(read_text(text)), m(world(), cs), sweep(m.forest, m.setup, nullptr), books(m) {
+    m.setup.skip_quiet = skip_quiet;
+    paint(m, cs);
+    books.refresh(m, all());
+  }
+  std::vector<int> all() const {
+    std::vector<int> blocks;
+    for (int b = 0; b < m.forest.local_blocks(); ++b) blocks.push_back(b);
+    return blocks;
+  }
+  void steps(int n, double dt = 0) {
+    for (int i = 0; i < n; ++i) {
+      const double t = m.state.t, stable = cs.fluid.scheme.cfl / sweep.max_rate(m.state);
+      coupling::Loads loads;
+      m.state.t = t + step(m, sweep, books, dt > 0 ? std::min(dt, stable) : stable, nullptr, true, &loads);
+    }
+  }
+  FluidSums sums() const { return books.sums(m); }
+  std::vector<double> bits() const {
+    std::vector<double> all_cells;
+    for (int b : all()) all_cells.insert(all_cells.end(), m.state.block(b), m.state.block(b) + m.state.block_size());
+    return all_cells;
+  }
+};
+
+const std::string air_and_tnt = R"(
+[[fluid.material]]
+name = "TNT"
+library = "TNT"
+[[fluid.material]]
+name = "air"
+library = "air"
+[[fluid.region]]
+shape = {kind = "everywhere"}
+material = "air"
+density = 1.225
+pressure = 101325
+)";
+std::string grid(const std::string& cells, const std::string& upper, const std::string& boundary = "") {
+  return "[fluid]\nlower = [0, 0, 0]\nupper = " + upper + "\ncells = " + cells + "\nboundary = {" + boundary + "}\n";
+}
+const char* periodic_sides =
+    R"(x_lower = "periodic", x_upper = "periodic", y_lower = "periodic", y_upper = "periodic", z_lower = "periodic", z_upper = "periodic")";
+const std::string hot_ball = R"([[fluid.region]]
+shape = {kind = "sphere", centre = [0.31, 0.3, 0.28], radius = 0.17}
+material = "TNT"
+density = 400
+pressure = 2e8
+)";
+
+TEST(Blocks, DivideAnyNumberOfCells) {
+  for (int n : {1, 4, 16, 64, 97, 100, 208, 250, 256, 400, 1009}) {
+    const auto b = choose_block({n, n, n});
+    for (int d = 0; d < 3; ++d) EXPECT_EQ(n % b[d], 0) << n;
+    if (n >= 16 && n % 2 == 0) EXPECT_LE(b[1], 40) << n;
+  }
+}
+
+TEST(Conservation, ClosedBoxOfTwoMaterials) {
+  Flow f(grid("[24, 20, 12]", "[0.6, 0.5, 0.3]") + air_and_tnt + hot_ball);
+  const FluidSums before = f.sums();
+  f.steps(25);
+  const FluidSums after = f.sums();
+  const Booked b = f.books.booked(f.m);
+  EXPECT_EQ(b.floors, 0);
+  for (int q : {int(Cons::arho1), int(Cons::arho2), int(Cons::rhoE)})
+    EXPECT_NEAR(after.U[q] + b.cleaned[q], before.U[q],
+                1e-13 * std::abs(before.U[Cons::rhoE] * (q == Cons::rhoE) + before.U[q]));
+  for (int d = 0; d < 3; ++d) {
+    double sides = 0;
+    for (int s = 0; s < 6; ++s) sides += (s % 2 ? 1 : -1) * b.side[s][Cons::mom + d];
+    EXPECT_NEAR(after.U[Cons::mom + d] + sides + b.cleaned[Cons::mom + d], before.U[Cons::mom + d],
+                1e-11 * std::sqrt(after.U[Cons::rhoE] * after.U[0]));
+  }
+}
+
+TEST(Conservation, PeriodicBoxKeepsMomentum) {
+  Flow f(grid("[20, 16, 18]", "[0.6, 0.5, 0.5]", periodic_sides) + air_and_tnt + hot_ball);
+  const FluidSums before = f.sums();
+  f.steps(20);
+  const FluidSums after = f.sums();
+  const double scale = std::sqrt(after.U[Cons::rhoE] * after.U[0]);
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR(after.U[Cons::mom + d], before.U[Cons::mom + d], 1e-11 * scale);
+  EXPECT_NEAR(after.U[Cons::rhoE] + f.books.booked(f.m).cleaned[Cons::rhoE], before.U[Cons::rhoE],
+              1e-13 * before.U[Cons::rhoE]);
+}
+
+TEST(Invariants, UniformFlowStaysUniform) {
+  Flow f(grid("[16, 20, 10]", "[1, 1, 1]", periodic_sides) + R"([[fluid.material]]
+name = "air"
+library = "air"
+[[fluid.region]]
+shape = {kind = "everywhere"}
+material = "air"
+density = 1.225
+pressure = 101325
+velocity = [100, 50, 20]
+)");
+  const std::vector<double> before = f.bits();
+  f.steps(10);
+  const std::vector<double> after = f.bits();
+  for (size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(after[i], before[i], 1e-13 * std::abs(before[i]) + 1e-15);
+}
+
+TEST(Invariants, ContactsKeepPressureAndVelocity) {  // VALIDATION F5
+  Flow f(grid("[40, 1, 1]", "[1, 0.025, 0.025]", R"(x_lower = "periodic", x_upper = "periodic")") + air_and_tnt +
+         R"([[fluid.region]]
+shape = {kind = "everywhere"}
+material = "air"
+density = 1.225
+pressure = 101325
+velocity = [100, 0, 0]
+[[fluid.region]]
+shape = {kind = "box", lower = [0.25, -1, -1], upper = [0.6, 1, 1]}
+material = "TNT"
+density = 50
+pressure = 101325
+velocity = [100, 0, 0]
+)");
+  f.steps(200);
+  for (int b : f.all())
+    for (int c = 0; c < f.m.forest.shape().cells(); ++c) {
+      double U[Cons::count], W[Prim::stored];
+      for (int q = 0; q < Cons::count; ++q) U[q] = f.m.state.block(b, q)[c];
+      std::visit([&](const auto& pair) { pair.to_primitive(U, W, Floors{}); }, f.m.setup.medium.mixture);
+      EXPECT_NEAR(W[Prim::p] / 101325, 1, 1e-11);
+      EXPECT_NEAR(W[Prim::v] / 100, 1, 1e-11);
+    }
+}
+
+const std::string charge = grid("[96, 24, 24]", "[1.2, 0.3, 0.3]") + air_and_tnt + R"([[fluid.region]]
+shape = {kind = "sphere", centre = [0.15, 0.15, 0.15], radius = 0.06}
+material = "TNT"
+unburnt = true
+pressure = 101325
+[[fluid.burn]]
+material = "TNT"
+points = [[0.15, 0.15, 0.15]]
+)";
+
+TEST(Equal, AnyNumberOfThreads) {
+  use_threads(1);
+  Flow one(charge);
+  one.steps(12);
+  use_threads(2);
+  Flow two(charge);
+  two.steps(12);
+  EXPECT_EQ(one.bits(), two.bits());
+  EXPECT_EQ(one.sums().U[Cons::rhoE], two.sums().U[Cons::rhoE]);
+}
+
+TEST(Equal, BlocksAtRestAreSkipped) {
+  Flow skip(charge, true), all(charge, false);
+  skip.steps(12, 2e-6), all.steps(12, 2e-6);
+  EXPECT_EQ(skip.bits(), all.bits());
+  EXPECT_LT(skip.books.booked(skip.m).updates, all.books.booked(all.m).updates);
+}
+
+TEST(Detonation, ReleasesExactlyItsEnergy) {
+  Flow f(charge);
+  const double mass = f.sums().U[0], energy = f.sums().U[Cons::rhoE], stored = stored_energy(f.m);
+  EXPECT_NEAR(mass, 1630 * 4.0 / 3 * M_PI * std::pow(0.06, 3), 0.003 * mass);  // sub-sampled sphere
+  EXPECT_NEAR(stored, mass * f.m.setup.burn->q, 1e-12 * stored);
+  while (f.m.state.t < f.m.setup.burn->t_all) f.steps(1);
+  const Booked b = f.books.booked(f.m);
+  const double left = stored_energy(f.m);  // in traces that ran ahead of the front
+  EXPECT_LT(left, 1e-9 * stored);
+  EXPECT_NEAR(f.sums().U[Cons::rhoE] + b.cleaned[Cons::rhoE] - b.floor_energy - energy + left, stored, 1e-13 * stored);
+  EXPECT_EQ(b.floors, 0);
+}
+
+TEST(Detonation, UnburntExplosiveStaysAtRest) {
+  Flow f(charge);
+  f.m.setup.burn->start = 1;  // far away
+  const std::vector<double> before = f.bits();
+  f.steps(5);
+  double worst = 0;
+  const std::vector<double> after = f.bits();
+  for (size_t i = 0; i < before.size(); ++i)
+    worst = std::max(worst, std::abs(after[i] - before[i]) / (1 + std::abs(before[i])));
+  EXPECT_LT(worst, 1e-9);
+}
+
+void expect_wrong(const std::string& text, const std::string& word) {
+  try {
+    Flow f(text);
+    FAIL() << "accepted: " << text;
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(".toml:"), std::string::npos) << e.what();
+  }
+}
+
+TEST(WrongInput, IsNamed) {
+  const std::string box = grid("[8, 8, 8]", "[1, 1, 1]");
+  const auto with = [&](std::string text, const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+    return text;
+  };
+  expect_wrong(with(box + air_and_tnt, "density = 1.225", "density = -1"), "density");
+  expect_wrong(with(box + air_and_tnt, "material = \"air\"", "material = \"argon\""), "argon");
+  expect_wrong(with(box + air_and_tnt, "library = \"air\"", "library = \"soap\""), "soap");
+  expect_wrong(with(box + air_and_tnt, "library = \"air\"\n", ""), "eos");
+  expect_wrong(with(box + air_and_tnt, "pressure = 101325", "pressure = -5"), "pressure");
+  expect_wrong(with(charge, "unburnt = true", "density = 1630"), "explosive");
+  expect_wrong(with(charge, "points = [[0.15, 0.15, 0.15]]", "points = [[0.02, 0.15, 0.15]]"), "explosive");
+}
+
+}  // namespace
+}  // namespace bw::cfd
