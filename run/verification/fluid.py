@@ -263,7 +263,7 @@ def block(n, body, u, end, extra=""):
 
 @case("F13", quick=True)
 def f13():
-    """Embedded walls that must change nothing: uniform flow with co-moving bodies, rest in a tilted box, a thin plate between 1 and 100 bar"""
+    """Embedded walls that must change nothing: uniform flow with co-moving bodies, a thin plate between 1 and 100 bar"""
     u = (100.0, 50.0, 20.0)
     flow_text = region('{kind = "everywhere"}', "air", 1.225, 101325.0, u)
     for shape in ('{kind = "sphere", centre = [0.41, 0.43, 0.47], radius = 0.2}',
@@ -275,13 +275,18 @@ def f13():
         p, rho = flow.array("pressure"), flow.array("density")
         yield at_most(f"(a) uniform flow past a moving {kind}: max |p/p0-1|", np.nanmax(np.abs(p / 101325 - 1)), 1e-12, result.seconds)
         yield at_most(f"(a) uniform flow past a moving {kind}: max |rho/rho0-1|", np.nanmax(np.abs(rho / 1.225 - 1)), 1e-12)
+    yield from plate()
+    yield from unit_rows("cfd", "EmbedInvariants.*-*TenThousand*")
+
+
+@case("F13b")
+def f13b():
+    """Gas at rest in and around a tilted closed box of no thickness stays at rest, 726 steps"""
     body = ('[[fluid.body]]\nname = "box"\nthin = true\nshape = {kind = "box", lower = [0.2, 0.25, 0.3], upper = [0.8, 0.75, 0.7]}\n'
             'turn_angle = 33.0\nturn_axis = [1.0, 2.0, 3.0]\nturn_point = [0.5, 0.5, 0.5]\n')
     result = run("F13b", block(32, body, (0, 0, 0), 2e-2, region('{kind = "everywhere"}', "air", 1.225, 101325.0)), only="fluid")
     flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
     yield at_most("(b) rest in a tilted closed box: max |p/p0-1|", np.nanmax(np.abs(flow.array("pressure") / 101325 - 1)), 1e-12, result.seconds)
-    yield from plate()
-    yield from unit_rows("cfd", "EmbedInvariants.*-*TenThousand*")
 
 
 def plate():
@@ -289,7 +294,7 @@ def plate():
     for position, note in ((0.5, "on cell faces"), (0.5 + 0.37 / 32, "between")):
         text = "[time]\nend = 1.0\nmax_steps = 10000\n" + output("1 s", "0.001 s")
         text += "[fluid]\nlower = [0, 0, 0]\nupper = [1, 0.5, 0.5]\ncells = [32, 16, 16]\n" + material("air", reference.GAS)
-        text += region('{kind = "everywhere"}', "air", 1.225, 1e5) + region(half_space(position, 0), "air", 122.5, 1e7)
+        text += region('{kind = "everywhere"}', "air", 1.225, 1e5) + region(half_space(0.5, 0), "air", 122.5, 1e7)  # cells are whole: each belongs to the side of its centre
         text += (f'[[fluid.body]]\nname = "plate"\nshape = {{kind = "plane", point = [{position!r}, 0.0, 0.0], normal = [1.0, 0.0, 0.0]}}\n'
                  'motion = {kind = "fixed"}\n')
         result = run(f"F13c_{note.replace(' ', '_')}", text, only="fluid")
