@@ -105,7 +105,7 @@ def s7():
     yield close("kinetic energy at 20 us [J]", 4 * np.interp(20e-6, table["t"], table["kinetic_energy"]), 148.30, 0.02)
 
 
-@case("S12", quick=True)
+@case("S12")
 def s12():
     """Energy of a vibrating elastic cantilever: bounded over 10,000 steps at the usual step, smaller with smaller steps"""
     for safety, steps, limit in ((0.9, 10000, 1e-3), (0.225, 40000, 1e-4)):
