@@ -21,8 +21,23 @@ struct ElementForce {
 
 /// Collapsed points push back (DESIGN 5b): energy kappa/2 ln^2(r / collapse_ratio) per reference volume for r =
 /// J_g/J_bar below the ratio, continued quadratically in r below a sixth of it so that even an inverted point has a way
-/// back. Adds to q the columns sum_g sigma_g c_k and to sigma_m what J_bar contributes; returns the energy [J]. Rare,
-/// so it recomputes.
+/// back.
+template <class T>
+struct CollapseEnergy {
+  T value, slope, curvature;  ///< J/m^3, by r
+  CollapseEnergy(T r, T kappa) {
+    const auto active = r < T(collapse_ratio);
+    const T r_log = max(r, T(collapse_ratio / 6)), l = log(r_log * T(1 / collapse_ratio)),
+            d = r - r_log;  // d = 0 above
+    const T s = kappa * l / r_log, c = kappa * (T(1) - l) / (r_log * r_log);
+    value = select(active, T(0.5) * kappa * l * l + s * d + T(0.5) * c * d * d, T(0));
+    slope = select(active, s + c * d, T(0));
+    curvature = select(active, c, T(0));
+  }
+};
+
+/// Adds to q the columns sum_g sigma_g c_k of that energy, and to sigma_m what J_bar contributes; returns the energy
+/// [J]. Rare, so it recomputes.
 template <class T>
 [[gnu::noinline]] T collapse_guard(const Columns<T>& g, const double* history, int components, T J_bar, T volume,
                                    T kappa, Columns<T>& q, T& sigma_m) {
@@ -31,15 +46,12 @@ template <class T>
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
     const Vec<T> c[3] = {cross(g2, g3), cross(g3, g1), cross(g1, g2)};
     const T inverse_V0 = sqrt(max(det(load_sym<T>(history + i * components * lanes)), T(0)));
-    const T det_g = dot(g1, c[0]), r = det_g * inverse_V0 / J_bar;
-    const auto active = r < T(collapse_ratio);
-    const T r_log = max(r, T(collapse_ratio / 6)), l = log(r_log * T(1 / collapse_ratio));
-    const T slope = kappa * l / r_log, curvature = kappa * (T(1) - l) / (r_log * r_log), d = r - r_log;
-    const T de_dr = select(active, slope + curvature * d, T(0));  // d is 0 but below the sixth
-    energy += select(active, (T(0.5) * kappa * l * l + slope * d + T(0.5) * curvature * d * d) / inverse_V0, T(0));
-    const T sigma = de_dr / J_bar;  // dE/d(det_g) = de/dr inverse_V0 / J_bar / inverse_V0
+    const T det_g = dot(g1, c[0]);
+    const CollapseEnergy<T> e(det_g * inverse_V0 / J_bar, kappa);
+    energy += e.value / inverse_V0;
+    const T sigma = e.slope / J_bar;  // dE/d(det_g) = slope inverse_V0 / J_bar / inverse_V0
     q.at(0, i) += sigma * c[0], q.at(1, i) += sigma * c[1], q.at(2, i) += sigma * c[2];
-    back += sigma * det_g;  // dE/dJ_bar = -de/dr r / J_bar per point
+    back += sigma * det_g;  // dE/dJ_bar = -slope r / J_bar per point
   }
   sigma_m -= back / volume;
   return energy;

@@ -16,6 +16,7 @@
 #include <array>
 
 #include "csd/element/hex.h"
+#include "csd/element/q1p0.h"
 #include "csd/material/concept.h"
 
 namespace bw::csd {
@@ -108,21 +109,49 @@ inline constexpr std::array<Sym8<double>, 8> gradient_products = [] {
   return table;
 }();
 
+/// What the energy of a collapsed point adds to its weight: its second variation per |G|^2, for r = det_g / (V0_g
+/// J_bar). The part of J_bar in dr and the mixed terms are covered by a factor of 3 on the curvature (tested down to
+/// inverted points).
+template <class T>
+T guard_weight(const Point<T>& p, const Vec<T>& g1, const Vec<T>& g2, const Vec<T>& g3, T J_bar, T kappa) {
+  const T V0 = abs(p.det_g) / sqrt(p.trial.J_squared);
+  const CollapseEnergy<T> e(p.det_g / (V0 * J_bar), kappa);
+  const T cofactors = dot(p.c[0], p.c[0]) + dot(p.c[1], p.c[1]) + dot(p.c[2], p.c[2]);
+  const T columns = dot(g1, g1) + dot(g2, g2) + dot(g3, g3);
+  return T(3) * e.curvature / (V0 * J_bar * J_bar) * cofactors + abs(e.slope) / J_bar * sqrt(columns);
+}
+/// Sum over the points of |dE/dJ_bar| of that energy [J].
+template <class T>
+T guard_stress(const Columns<T>& g, const double* history, int components, T J_bar, T kappa) {
+  T sum(0);
+  for (int i = 0; i < 8; ++i) {
+    const T det_g = triple(g.at(0, i), g.at(1, i), g.at(2, i));
+    const T inverse_V0 = sqrt(max(det(load_sym<T>(history + i * components * lanes)), T(0)));
+    sum += abs(CollapseEnergy<T>(det_g * inverse_V0 / J_bar, kappa).slope * det_g) / (J_bar * J_bar);
+  }
+  return sum;
+}
+
 /// Upper bound of omega^2 [1/s^2] of an element at positions x with the masses [kg] given at its nodes; sigma_m [Pa]:
 /// the mean stress it bears. history as for internal_force, not changed.
 template <class T, class M>
 T omega2_bound(const M& material, const Corners<T>& x, T V0, const T (&mass)[8], T sigma_m, const double* history) {
   const Modes<T> modes = modes_of(x);
   const Columns<T> g = columns_of(modes);
-  const T bulk = material.volumetric.stiffness(volume_of(modes) / V0) + sigma_m;
+  const T J_bar = volume_of(modes) / V0;
+  const T kappa(material.volumetric.kappa), bulk = material.volumetric.stiffness(J_bar) + sigma_m;
+  const T back = guard_stress(g, history, M::components, J_bar, kappa) / V0;  // what the guard adds to sigma_m
   Sym8<T> A{};
   for (int i = 0; i < 8; ++i) {
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
     const Point<T> p(g1, g2, g3, load_sym<T>(history + i * M::components * lanes));
     const T per_J = T(material.mu) * p.trial.iso * p.trial.iso * sqrt(p.trial.iso);  // mu J^(-2/3) / J
     const T m = T(2) * per_J * p.trial.third_trace;
-    const T stress = abs(sigma_m) + T(2) * per_J * sqrt(p.trial.dev2);
-    const T weight = p.det_g * point_stiffness(g1, g2, g3, m + stress, bulk - m * T(1.0 / 3.0), 4);
+    const T stress = abs(sigma_m) + T(2) * back + T(2) * per_J * sqrt(p.trial.dev2);
+    // beyond inversion only the size of the volume counts; near zero volume the bound is large, as the stiffness is
+    const T size = max(abs(p.det_g), T(1e-9) * V0);
+    const T weight = size * point_stiffness(g1, g2, g3, m + stress, bulk - m * T(1.0 / 3.0), 4) +
+                     guard_weight(p, g1, g2, g3, J_bar, kappa);
     for (int a = 0; a < 8; ++a)
       for (int b = 0; b <= a; ++b) A.a[a][b] += T(gradient_products[size_t(i)].a[a][b]) * weight;
   }

@@ -55,11 +55,18 @@ template <class M>
   }
 }
 
+bool has_collapsed(const State& s, int block) {
+  for (int l = 0; l < lanes; ++l)
+    if (s.collapsed[SlotId(block * lanes + l)] > 0) return true;
+  return false;
+}
+
 }  // namespace
 
-void TimeStep::refresh(const Elements& el, const State& s) {
-  share_masses(el, s);
+void TimeStep::refresh(const Elements& el, const State& s, bool whole) {
+  if (whole) share_masses(el, s);
   for_blocks(el.blocks, [&](int block, int body) {
+    if (!whole && !has_collapsed(s, block)) return;
     std::visit(
         [&]<class M>(const M& material) {
           const size_t in_body = size_t(block - el.blocks.first_block[size_t(body)]);
@@ -68,27 +75,43 @@ void TimeStep::refresh(const Elements& el, const State& s) {
         },
         el.materials[size_t(body)]);
   });
+  if (!whole) return;
   refreshed_at_ = s.step;
   stale_ = false;
 }
 
-double TimeStep::stable(const Elements& el, const State& s) {
-  struct Worst {
-    double omega2 = 0;
-    SlotId limiting, inverted;
-  };
-  const auto worse = [](const Worst& a, const Worst& b) {  // a comes first: it wins ties
-    return Worst{std::fmax(a.omega2, b.omega2), b.omega2 > a.omega2 ? b.limiting : a.limiting,
-                 a.inverted.valid() ? a.inverted : b.inverted};
-  };
-  if (stale_ || s.step - refreshed_at_ >= refresh_steps) refresh(el, s);
-  const Worst w = parallel_reduce(
-      el.blocks.slot_count(), Worst{},
+namespace {
+
+struct Worst {
+  double omega2 = 0;
+  SlotId limiting, inverted;
+  bool collapsed = false;
+};
+Worst worse(const Worst& a, const Worst& b) {  // a comes first: it wins ties
+  return {std::fmax(a.omega2, b.omega2), b.omega2 > a.omega2 ? b.limiting : a.limiting,
+          a.inverted.valid() ? a.inverted : b.inverted, a.collapsed || b.collapsed};
+}
+Worst worst_of(const State& s, const Field<double, SlotId>& distortion) {
+  return parallel_reduce(
+      int64_t(distortion.size()), Worst{},
       [&](int64_t i) {
         const SlotId slot(i);
-        return Worst{s.omega2[slot] * distortion_[slot], slot, s.volume[slot] > 0 ? SlotId() : slot};
+        return Worst{s.omega2[slot] * distortion[slot], slot, s.volume[slot] > 0 ? SlotId() : slot,
+                     s.collapsed[slot] > 0};
       },
       worse);
+}
+
+}  // namespace
+
+double TimeStep::stable(const Elements& el, const State& s) {
+  const bool due = stale_ || s.step - refreshed_at_ >= refresh_steps;
+  if (due) refresh(el, s, true);
+  Worst w = worst_of(s, distortion_);
+  if (w.collapsed && !due) {  // the centroid doesn't see a collapsing point: such elements are evaluated in every step
+    refresh(el, s, false);
+    w = worst_of(s, distortion_);
+  }
   limiting_ = w.limiting;
   inverted_ = w.inverted.valid() ? std::optional(w.inverted) : std::nullopt;
   return 2 / std::sqrt(w.omega2);

@@ -12,6 +12,7 @@ namespace bw::csd {
 /// that stiff elements borrow from soft neighbours and the bound comes down to what the assembled model allows. The
 /// bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
 /// each element's is scaled by its centroid part, which follows all of its change of size and shape but distortion.
+/// Elements with a collapsed point (q1p0.h) are evaluated in every step.
 class TimeStep {
  public:
   /// s. Needs the results of internal_force at s.x.
@@ -27,7 +28,8 @@ class TimeStep {
 
  private:
   void share_masses(const Elements& elements, const State& s);
-  void refresh(const Elements& elements, const State& s);
+  /// whole: all elements, with new shares of mass; otherwise blocks with collapsed points.
+  void refresh(const Elements& elements, const State& s, bool whole);
   Aligned<double> mass_;              // [block][8][lanes] kg, M_e
   Field<double, NodeId> sum_;         // work space
   Field<double, SlotId> distortion_;  // bound / centroid part

@@ -104,5 +104,16 @@ TEST(StableStep, PressureCounts) {  // 10 GPa and more, either sign
     }
 }
 
+TEST(StableStep, CollapsedPointsCount) {  // a corner pushed in until its point has lost most of its volume
+  for (double push : {0.5, 0.62, 0.7, 0.75, 0.8, 0.9}) {
+    OneElement<NeoHooke> e(copper_elastic(), random_hex(1, 0));
+    Corners<double> x = e.X;
+    x.a[6] -= push * Vec3{1, 1, 1};
+    const double ratio = std::sqrt(bound(e, x) / dense_omega2(e, x));
+    printf("corner pushed by %.2f: bound/true %.3f\n", push, ratio);
+    EXPECT_GE(ratio, 1 - 1e-6) << push;
+  }
+}
+
 }  // namespace
 }  // namespace bw::csd
