@@ -36,9 +36,10 @@ void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
   }
 }
 
-Physics build_physics(const SolidCase& cs, const Mesh& mesh, State& s) {
+Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, State& s) {
   Elements elements;
   elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
+  if (comm.size() > 1) elements.ranks = std::make_shared<Ranks>(comm, mesh, elements.blocks);
   for (const BodyCase& body : cs.bodies) elements.materials.push_back(make_material(body.material));
   start(mesh, elements, s);
   Physics ph;
@@ -58,11 +59,11 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, State& s) {
 
 }  // namespace
 
-Model build(const Case& cs) {
+Model build(const Case& cs, const Comm& comm) {
   Mesh mesh = build_mesh(cs.solid);
   Topology topology(mesh);
   State s;
-  Physics ph = build_physics(cs.solid, mesh, s);
+  Physics ph = build_physics(cs.solid, mesh, comm, s);
   set_initial_velocities(cs.solid, mesh, s);
   Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
   first_forces(model);

@@ -7,6 +7,7 @@
 namespace bw::csd {
 
 /// Meshes, materials, initial state and forces. InputError for anything that can't be built.
-Model build(const Case& cs);
+/// On several ranks all call it, and each gets the elements of its own blocks (csd/ranks).
+Model build(const Case& cs, const Comm& comm = {});
 
 }  // namespace bw::csd

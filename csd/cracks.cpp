@@ -22,6 +22,7 @@ void Cracks::update_fail(const Model& m) {
       [&]<class C>(const C& criterion) {
         parallel_for(int64_t(fail_.size()), [&](int64_t e) {
           const SlotId slot = el.blocks.slot[ElemId(e)];
+          if (!el.blocks.is_own(slot)) return;
           if constexpr (C::uses_stress) {
             const ElementResult r = evaluate(el, m.state, slot, sigma_m);
             fail_[size_t(e)] = criterion.fail(r.eqps, r.sigma);
@@ -31,13 +32,30 @@ void Cracks::update_fail(const Model& m) {
         });
       },
       criterion_);
+  if (el.ranks) el.ranks->complete(fail_);
+}
+
+/// Those that may be asked for in this step: broken, or next to one that is.
+std::vector<Sym3> Cracks::stresses(const Model& m) const {
+  const Elements& el = m.physics.elements;
+  const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+  std::vector<char> is_asked(fail_.size(), 0);
+  for (int32_t e = 0; e < m.mesh.elem_count(); ++e)
+    if (fail_[size_t(e)] >= 1)
+      for (NodeId n : m.mesh.hex[ElemId(e)])
+        for (ElemId near : m.topology.elements(n)) is_asked[size_t(near)] = 1;
+  return el.ranks->complete_some<Sym3>(
+      is_asked, [&](ElemId e) { return evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma; });
 }
 
 bool Cracks::advance(Model& m) {
   update_fail(m);
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+  const Elements& el = m.physics.elements;
+  const bool any = std::any_of(fail_.begin(), fail_.end(), [](double f) { return f >= 1; });
+  const std::vector<Sym3> known = el.ranks && any ? stresses(m) : std::vector<Sym3>{};
   const auto sigma = [&](ElemId e) {
-    return evaluate(m.physics.elements, m.state, m.physics.elements.blocks.slot[e], sigma_m).sigma;
+    return el.ranks ? known[size_t(e)] : evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma;
   };
   const bool opened =
       fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
@@ -49,6 +67,7 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
   auto& [mesh, topology, s, ph] = m;
   const double filter_energy = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
   s.append_copies(splits);
+  if (ph.elements.ranks) ph.elements.ranks->append_copies(splits);
   if (ph.loads) ph.loads->append_copies(splits);
   for (ElemId e : changed) ph.elements.blocks.renew(mesh, e);
   std::vector<NodeId> touched;

@@ -26,6 +26,7 @@ class Cracks {
 
  private:
   void update_fail(const Model& model);
+  std::vector<Sym3> stresses(const Model& model) const;
   void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
 
   Criteria criterion_;

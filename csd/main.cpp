@@ -25,11 +25,8 @@ int program(const Session& session, int argc, char** argv) {
   if (!line.check) {
     joined = coupling::join(session, coupling::Role::solid, cs.coupling);
     set_speaker("csd", joined.mine.root());
-    if (joined.mine.size() > 1)
-      throw InputError(fmt::format(
-          "csd runs on one rank, not {}: give it threads instead (--threads, or [solid] threads)", joined.mine.size()));
   }
-  Model model = build(cs);
+  Model model = build(cs, joined.mine);
   if (line.check) {
     check(cs, model);
     return exit_ok;

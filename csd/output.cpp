@@ -43,9 +43,9 @@ double mass_of(const State& s) {
   return parallel_sum(int64_t(s.x.size()), [&](int64_t n) { return s.m[NodeId(n)]; });
 }
 double collapsed_elements(const Model& m) {
-  return parallel_sum(m.mesh.elem_count(),
-                      [&](int64_t e) { return m.state.collapsed[m.physics.elements.blocks.slot[ElemId(e)]]; });
+  return sum_elements(m.physics.elements, [&](SlotId slot) { return m.state.collapsed[slot]; });
 }
+bool writes(const Model& m) { return !m.physics.elements.ranks || m.physics.elements.ranks->comm().root(); }
 
 }  // namespace
 
@@ -60,7 +60,7 @@ Output::Output(const Case& cs, const Model& model, double t_end)
       start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
-  history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
+  if (writes(model)) history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
 }
 
 double Output::next_time(double t) const {
@@ -101,13 +101,13 @@ void Output::write_row(Model& m) {
                           momentum_.z,
                           energy_.eqps_max,
                           checkerboard(m.physics.elements, s),
-                          collapsed_elements(m),
+                          collapsed_ = collapsed_elements(m),
                           double(m.mesh.node_count())};
   auto& cracks = m.physics.cracks;
   row.push_back(cracks ? double(cracks->opened_faces()) : 0);
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
-  history_->row(row);
+  if (history_) history_->row(row);
 }
 
 std::string Output::write_fields(Model& m) {
@@ -120,11 +120,14 @@ std::string Output::write_fields(Model& m) {
   std::vector<double> J(n), mean(n), mises(n), eqps(n), eqps_max(n);
   parallel_for(int64_t(n), [&](int64_t i) {
     const SlotId slot = blocks.slot[ElemId(i)];
+    if (!blocks.is_own(slot)) return;
     const ElementResult r = evaluate(m.physics.elements, s, slot, sigma_m);
     const size_t e = size_t(i);
     J[e] = s.volume[slot] / s.V0[slot], mean[e] = trace(r.sigma) / 3, mises[e] = von_mises(r.sigma), eqps[e] = r.eqps,
     eqps_max[e] = r.eqps_max;
   });
+  if (const auto& ranks = m.physics.elements.ranks)
+    for (auto* values : {&J, &mean, &mises, &eqps, &eqps_max}) ranks->complete(*values);
   VtkMesh mesh;
   mesh.points = {s.x.data(), s.x.size()};
   mesh.add_hexahedra(m.mesh.hex);
@@ -142,6 +145,7 @@ std::string Output::write_fields(Model& m) {
     cells.push_back(VtkField::scalars("fail", cracks->fail()));
     cells.push_back(VtkField::integers("frag_id", frag_id));
   }
+  if (!writes(m)) return "";
   last_dump_ = series_.next_path();
   write_vtkhdf(last_dump_, mesh,
                {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
@@ -152,11 +156,14 @@ std::string Output::write_fields(Model& m) {
 }
 
 void Output::write_fragment_table(Model& m) {
-  std::vector<double> eqps;
-  for (int e = 0; e < m.mesh.elem_count(); ++e)
-    eqps.push_back(mean_eqps(m.physics.elements, m.state, m.physics.elements.blocks.slot[ElemId(e)]));
+  const Elements& el = m.physics.elements;
+  std::vector<double> eqps(size_t(m.mesh.elem_count()));
+  for (size_t e = 0; e < eqps.size(); ++e)
+    if (const SlotId slot = el.blocks.slot[ElemId(int64_t(e))]; el.blocks.is_own(slot))
+      eqps[e] = mean_eqps(el, m.state, slot);
+  if (el.ranks) el.ranks->complete(eqps);
   const auto table = m.physics.cracks->fragments(m).table(m.mesh, m.state.x, m.state.v, m.state.m, eqps);
-  write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
+  if (writes(m)) write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
 }
 
 std::string Output::limiter(const Model& m) const {
@@ -186,10 +193,12 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     write_row(m);
     if (case_.run.output.fields_every > 0) write_fields(m);
   }
-  history_->flush();
+  if (history_) history_->flush();
   if (m.physics.cracks && !failed) write_fragment_table(m);
   Summary sum;
   sum.case_file = case_.file, sum.title = case_.run.title, sum.status = status, sum.message = message;
+  const auto& ranks = m.physics.elements.ranks;
+  sum.ranks = ranks ? ranks->comm().size() : 1;
   sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
   sum.rates = {{"elements_per_second", loop_rate}};
   sum.energies = {{"kinetic", energy_.kinetic},   {"elastic", energy_.elastic},       {"plastic", energy_.plastic},
@@ -200,13 +209,16 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.momenta = {{"x", momentum_.x}, {"y", momentum_.y}, {"z", momentum_.z}};
   sum.counts = {{"elements", double(m.mesh.elem_count())},
                 {"nodes", double(m.mesh.node_count())},
-                {"collapsed_elements", collapsed_elements(m)}};
+                {"collapsed_elements", collapsed_}};
   if (m.physics.cracks) {
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
   }
   sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
-  sum.write(case_.run.output.directory + "/solid_summary.json", timers());
+  if (ranks && !failed)
+    sum.values.emplace_back("exchange_share",
+                            ranks->comm().sum(timers().seconds("exchange") / timers().wall()) / sum.ranks);
+  if (writes(m)) sum.write(case_.run.output.directory + "/solid_summary.json", timers());
   say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status,
       m.state.step, m.state.t, 1e-6 * loop_rate, limiter(m), energy_.residual);
 }

@@ -43,7 +43,7 @@ class Output {
   Schedule fields_, rows_;
   Progress progress_;
   EnergyRow energy_;  // of the last row
-  double mass_ = 0;
+  double mass_ = 0, collapsed_ = 0;
   Vec3 momentum_;
   std::string last_dump_;
   double t_row_ = -1, t_fields_ = -1;

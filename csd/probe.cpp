@@ -38,9 +38,18 @@ void ElementProbe::select(const Mesh& mesh, const Physics&) {
 }
 void ElementProbe::values(const Mesh&, const State& s, const Physics& ph, std::vector<double>& out) {
   const SlotId slot = ph.elements.blocks.slot[elem_];
-  const ElementResult r = evaluate(ph.elements, s, slot, ph.filter ? ph.filter->mean_stress() : nullptr);
-  out.insert(out.end(), {s.volume[slot] / s.V0[slot], r.eqps, trace(r.sigma) / 3, von_mises(r.sigma), r.sigma.xx,
-                         r.sigma.yy, r.sigma.zz, r.sigma.xy, r.sigma.xz, r.sigma.yz});
+  ElementResult r;
+  double J = 0;
+  if (ph.elements.blocks.is_own(slot)) {
+    r = evaluate(ph.elements, s, slot, ph.filter ? ph.filter->mean_stress() : nullptr);
+    J = s.volume[slot] / s.V0[slot];
+  }
+  if (const auto& ranks = ph.elements.ranks) {
+    r = ranks->from_owner(ph.elements.blocks, elem_, r);
+    J = ranks->from_owner(ph.elements.blocks, elem_, J);
+  }
+  out.insert(out.end(), {J, r.eqps, trace(r.sigma) / 3, von_mises(r.sigma), r.sigma.xx, r.sigma.yy, r.sigma.zz,
+                         r.sigma.xy, r.sigma.xz, r.sigma.yz});
 }
 
 void RingProbe::select(const Mesh& mesh, const Physics&) {

@@ -20,7 +20,8 @@ namespace {
   const ElemId e = m.physics.elements.blocks.elem[slot];
   Vec3 c;
   for (NodeId n : m.mesh.hex[e]) c += 0.125 * m.state.x[n];
-  const double v = m.state.volume[slot];
+  double v = m.state.volume[slot];
+  if (const auto& ranks = m.physics.elements.ranks) v = ranks->from_owner(m.physics.elements.blocks, e, v);
   throw PhysicsError(fmt::format("element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m {}, step {}, t = {:.9g} s{}",
                                  m.mesh.elem_gid[e], m.mesh.body[e], c.x, c.y, c.z,
                                  std::isnan(v)
@@ -52,8 +53,9 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
   std::string status = "finished";
   try {
     double dt = wanted_dt(cs, m, out);
-    say("{} elements in {} colours, {} threads, first step {:.4g} s", m.mesh.elem_count(),
-        m.physics.elements.blocks.colours.size(), thread_count(), dt);
+    const auto& el = m.physics.elements;
+    say("{} elements in {} colours, {}{} threads, first step {:.4g} s", m.mesh.elem_count(), el.blocks.colours.size(),
+        el.ranks ? el.ranks->shares() : "", thread_count(), dt);
     out.write_due(m);
     while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
       const double t_next = out.next_time(m.state.t);
@@ -89,8 +91,10 @@ void check(const Case& cs, Model& m) {
   const double steps = cs.run.time.end / dt, elements = m.mesh.elem_count();
   constexpr double elements_a_second = 4e6;  // of one thread, plastic (run/bench solid)
   say("{}: the case is sound", cs.file);
-  say("{:.0f} elements, about {:.0f} steps of {:.3g} s, {:.2f} GB, {:.1f} min on {} threads; elements that flatten take more steps", elements, steps, dt,
-      1e-9 * double(peak_memory()), steps * elements / (elements_a_second * thread_count()) / 60, thread_count());
+  say("{:.0f} elements, about {:.0f} steps of {:.3g} s, {:.2f} GB, {:.1f} min on {} threads; elements that flatten "
+      "take more steps",
+      elements, steps, dt, 1e-9 * double(peak_memory()), steps * elements / (elements_a_second * thread_count()) / 60,
+      thread_count());
 }
 
 }  // namespace bw::csd

@@ -66,6 +66,14 @@ void Comm::barrier() const {
   if (size_ > 1) check_mpi(MPI_Barrier(comm_), "MPI_Barrier");
 }
 
+void Comm::complete(std::span<double> all, std::span<const int> start) const {
+  if (size_ == 1) return;
+  std::vector<int> counts;
+  for (int r = 0; r < size_; ++r) counts.push_back(start[size_t(r) + 1] - start[size_t(r)]);
+  check_mpi(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DOUBLE, all.data(), counts.data(), start.data(), MPI_DOUBLE, comm_),
+            "MPI_Allgatherv");
+}
+
 std::vector<char> Comm::gather_bytes(const void* data, size_t bytes) const {
   const char* begin = static_cast<const char*>(data);
   if (size_ == 1) return bytes ? std::vector<char>(begin, begin + bytes) : std::vector<char>();

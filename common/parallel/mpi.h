@@ -35,6 +35,8 @@ class Comm {
   void barrier() const;
   /// All ranks' items, in rank order.
   template <class T> std::vector<T> gather_all(const std::vector<T>& mine) const;
+  /// Rank r knows all[start[r]] ... all[start[r + 1] - 1]; afterwards all ranks know all of it. start [size + 1].
+  void complete(std::span<double> all, std::span<const int> start) const;
 
  private:
   MPI_Comm comm_ = MPI_COMM_NULL;

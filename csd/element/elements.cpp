@@ -22,8 +22,7 @@ namespace {
 
 template <class M>
 double* history_of(State& s, const Elements& el, int body, int block) {
-  return s.history[size_t(body)].data() +
-         size_t(block - el.blocks.first_block[size_t(body)]) * 8 * M::components * lanes;
+  return s.history[size_t(body)].data() + size_t(el.blocks.row_of(body, block)) * 8 * M::components * lanes;
 }
 
 /// What bulk viscosity does to an element.
@@ -64,7 +63,11 @@ template <class M, class Mean>
     Viscous viscous{Pack(0), Pack(0)};
     const auto r = internal_force<Pack>(material, x, V0, history + l,
                                         [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); });
-    scatter_add(r.f, nodes + l, std::min(used - l, Pack::size), s.f.data());
+    const int count = std::min(used - l, Pack::size);
+    if (const int32_t* places = el.blocks.border.of(block))
+      scatter_border(r.f, nodes + l, places + l, count, s.f.data(), el.blocks.border.vectors);
+    else
+      scatter_add(r.f, nodes + l, count, s.f.data());
     const Pack J_bar = r.volume / V0;
     Pack omega2 = centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
     if constexpr (Mean::viscous) {
@@ -114,8 +117,10 @@ double all_forces(const Elements& el, const Mean& mean_of, State& s) {
         },
         el.materials[size_t(body)]);
   });
+  if (el.ranks && Mean::viscous) el.ranks->complete_blocks(work);
   double sum = 0;
   for (double w : work) sum += w;
+  el.finish_sum(s.f);
   return sum;
 }
 
@@ -149,6 +154,7 @@ void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, Sta
     const Vec3 &g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
     const double det_g = triple(g1, g2, g3);
     if (!(det_g > 0)) refuse(mesh, e, "at an integration point a volume (8 det)", 8 * det_g);
+    if (!history) continue;  // another rank's
     double* at_point = history + i * M::components * lanes;
     store_sym(at_point, metric(cross(g2, g3), cross(g3, g1), cross(g1, g2), 1 / (det_g * det_g)));
     for (int c = 6; c < M::components; ++c) at_point[c * lanes] = 0;
@@ -166,10 +172,11 @@ void start(const Mesh& mesh, Elements& el, State& s) {
     const int first = el.blocks.first_block[size_t(body)], last = el.blocks.first_block[size_t(body) + 1];
     std::visit(
         [&]<class M>(const M& material) {
-          s.history.emplace_back(size_t(last - first) * 8 * M::components * lanes, 0.0);
+          s.history.emplace_back(size_t(el.blocks.own_count(body)) * 8 * M::components * lanes, 0.0);
           for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1)) {
             const ElemId e = el.blocks.elem[slot];
-            start_element<M>(mesh, e, slot, history_of<M>(s, el, body, slot / lanes) + slot % lanes, s);
+            const bool own = el.blocks.is_own(slot);
+            start_element<M>(mesh, e, slot, own ? history_of<M>(s, el, body, slot / lanes) + slot % lanes : nullptr, s);
             const auto share = row_sums(corners(mesh, e));
             for (int a = 0; a < 8; ++a)
               el.corner_mass[size_t((slot / lanes * 8 + a) * lanes + slot % lanes)] =

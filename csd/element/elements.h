@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // All elements of the model: blocks and the material of each body, and the loops over them.
 #pragma once
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "csd/element/blocks.h"
 #include "csd/material/list.h"
+#include "csd/ranks/ranks.h"
 #include "csd/state.h"
 
 namespace bw::csd {
@@ -20,7 +22,31 @@ struct Elements {
   }
 
   int body_of(SlotId slot) const;
+
+  std::shared_ptr<Ranks> ranks;  ///< null on one rank
+  /// Nodal sums over this rank's elements become those over all: after each loop that adds to nodes.
+  template <class T>
+  void finish_sum(Field<T, NodeId>& a) const {
+    if (ranks) ranks->sum(blocks, a);
+  }
 };
+
+/// Fold of value(slot) over all elements in their order, the same on all ranks. T holds doubles.
+template <class T, class Value, class Combine>
+T reduce_elements(const Elements& el, const T& identity, const Value& value, const Combine& combine) {
+  const Field<SlotId, ElemId>& slot = el.blocks.slot;
+  std::vector<T> values(slot.size());  // by way of memory on one rank too: nothing is fused with the sum
+  parallel_for(int64_t(slot.size()), [&](int64_t e) {
+    if (el.blocks.is_own(slot[ElemId(e)])) values[size_t(e)] = value(slot[ElemId(e)]);
+  });
+  if (el.ranks) el.ranks->complete(values);
+  return parallel_reduce(
+      int64_t(values.size()), identity, [&](int64_t e) { return values[size_t(e)]; }, combine);
+}
+template <class Value>
+double sum_elements(const Elements& el, const Value& value) {
+  return reduce_elements(el, 0.0, value, [](double a, double b) { return a + b; });
+}
 
 /// Bulk viscosity: on compression sigma_m gains rho h (c1 c_L + c2 h |rate|) rate, h = cube root of the volume.
 struct BulkViscosity {

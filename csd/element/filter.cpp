@@ -32,24 +32,16 @@ void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<dou
   });
 }
 
-/// Nodal sums of V_e a_e.
-void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>* a, Field<double, NodeId>& sum) {
+/// Nodal sums of what elements have.
+void nodal_sums(const Elements& el, const Field<double, SlotId>& a, Field<double, NodeId>& sum) {
   parallel_for(int64_t(sum.size()), [&](int64_t n) { sum[NodeId(n)] = 0; });
   for_coloured_blocks(el.blocks, [&](int block, int) {
-    const int32_t* nodes = el.blocks.nodes_of(block);
-    for (int l = 0; l < el.blocks.used[size_t(block)]; ++l) {
-      const SlotId slot(block * lanes + l);
-      const double Va = s.V0[slot] * (a ? (*a)[slot] : 1.0);
-      for (int c = 0; c < 8; ++c) sum[NodeId(nodes[c * lanes + l])] += Va;
-    }
+    add_to_corners(
+        el.blocks, block, [&](int, int l) { return a[SlotId(block * lanes + l)]; }, sum);
   });
+  el.finish_sum(sum);
 }
 
-/// Visits the elements (not the padding) in order.
-template <class Value>
-double element_sum(const Elements& el, const Value& value) {
-  return parallel_sum(int64_t(el.blocks.slot.size()), [&](int64_t e) { return value(el.blocks.slot[ElemId(e)]); });
-}
 const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
   return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; },
                     el.materials[size_t(el.body_of(slot))]);
@@ -67,12 +59,16 @@ PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const S
 void PressureFilter::renew(const Elements& el, const State& s) {
   weight_.resize(s.x.size());
   sum_.resize(s.x.size());
-  nodal_sums(el, s, nullptr, weight_);
+  nodal_sums(el, s.V0, weight_);
 }
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
                              Field<double, SlotId>& out) {
-  nodal_sums(el, s, &a, sum_);
+  for_blocks(el.blocks, [&](int block, int) {
+    for (SlotId slot(block * lanes); slot < (block + 1) * lanes; slot = SlotId(slot + 1))
+      out[slot] = s.V0[slot] * a[slot];
+  });
+  nodal_sums(el, out, sum_);
   for_blocks(el.blocks, [&](int block, int) {
     const int32_t* nodes = el.blocks.nodes_of(block);
     for (int l = 0; l < lanes; ++l) {
@@ -105,7 +101,7 @@ const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const St
 void PressureFilter::book_work(const Elements& el, const State& s) {
   const bool first = change_.size() == 0;
   change_.resize(J_.size()), volume_.resize(J_.size());
-  work_ += element_sum(el, [&](SlotId slot) {
+  work_ += sum_elements(el, [&](SlotId slot) {
     const double change = sigma_[slot] - stress_[slot], volume = J_[slot] * s.V0[slot];
     const double work = first ? 0 : 0.5 * (change + change_[slot]) * (volume - volume_[slot]);
     change_[slot] = change, volume_[slot] = volume;
@@ -115,7 +111,7 @@ void PressureFilter::book_work(const Elements& el, const State& s) {
 
 double PressureFilter::energy(const Elements& el, const State& s) const {
   if (!self_adjoint_ || !sigma_.size()) return work_;
-  return element_sum(el, [&](SlotId slot) {
+  return sum_elements(el, [&](SlotId slot) {
     const Volumetric& U = volumetric_of(el, slot);
     return s.V0[slot] * (U.energy(theta_[slot]) - U.energy(J_[slot]));
   });
@@ -127,9 +123,9 @@ double checkerboard(const Elements& el, const State& s) {
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough =
-      element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
-  const double all = element_sum(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i]); });
-  const double noise = element_sum(el, [&](SlotId i) { return s.V0[i] * volumetric_of(el, i).kappa; });
+      sum_elements(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i] - whole.theta_[i]); });
+  const double all = sum_elements(el, [&](SlotId i) { return s.V0[i] * std::abs(whole.stress_[i]); });
+  const double noise = sum_elements(el, [&](SlotId i) { return s.V0[i] * volumetric_of(el, i).kappa; });
   return all > 1e-12 * noise ? rough / all : 0;
 }
 

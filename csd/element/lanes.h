@@ -34,4 +34,18 @@ inline void scatter_add(const Corners<Pack>& f, const int32_t* nodes, int count,
     }
 }
 
+/// Likewise, but corners with a place (>= 0, laid out as nodes) go there.
+inline void scatter_border(const Corners<Pack>& f, const int32_t* nodes, const int32_t* places, int count, Vec3* out,
+                           Vec3* border) {
+  for (int a = 0; a < 8; ++a)
+    for (int l = 0; l < count; ++l) {
+      const int i = a * lanes + l;
+      const Vec3 value{f.a[a].x[l], f.a[a].y[l], f.a[a].z[l]};
+      if (places[i] >= 0)
+        border[places[i]] = value;
+      else
+        out[nodes[i]] += value;
+    }
+}
+
 }  // namespace bw::csd

@@ -12,7 +12,7 @@ namespace {
 
 template <class M>
 const double* history_of(const Elements& el, const State& s, int body, SlotId slot) {
-  const size_t block = size_t(slot / lanes - el.blocks.first_block[size_t(body)]);
+  const size_t block = size_t(el.blocks.row_of(body, slot / lanes));
   return s.history[size_t(body)].data() + block * 8 * M::components * lanes + slot % lanes;
 }
 
@@ -80,10 +80,10 @@ ElementResult evaluate(const Elements& el, const State& s, SlotId slot, const Fi
 }
 
 StoredEnergy stored_energy(const Elements& el, const State& s) {
-  return parallel_reduce(
-      int64_t(el.blocks.slot.size()), StoredEnergy{},
-      [&](int64_t e) {
-        const ElementResult r = evaluate(el, s, el.blocks.slot[ElemId(e)]);
+  return reduce_elements(
+      el, StoredEnergy{},
+      [&](SlotId slot) {
+        const ElementResult r = evaluate(el, s, slot);
         return StoredEnergy{r.elastic, r.plastic, r.collapse, r.eqps_max};
       },
       [](const StoredEnergy& a, const StoredEnergy& b) {

@@ -16,23 +16,23 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   }
   sum_.resize(s.m.size());
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { sum_[NodeId(n)] = 0; });
-  const auto for_corners = [&](int block, const auto& work) {
-    const int32_t* nodes = el.blocks.nodes_of(block);
-    for (int l = 0; l < lanes; ++l) {
+  const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
+  for_blocks(el.blocks, [&](int block, int) {
+    for_corners(lanes, [&](int a, int l) {
       const SlotId slot(block * lanes + l);
-      const double omega2 = s.omega2[slot] * distortion_[slot];
-      for (int a = 0; a < 8; ++a)
-        work(l, omega2 * mass_[size_t(block * 8 + a) * lanes + size_t(l)], NodeId(nodes[a * lanes + l]),
-             mass_[size_t(block * 8 + a) * lanes + size_t(l)]);
-    }
-  };
-  for_coloured_blocks(el.blocks, [&](int block, int) {
-    for_corners(block, [&](int lane, double weight, NodeId n, double&) {
-      if (lane < el.blocks.used[size_t(block)]) sum_[n] += weight;
+      mass_[at(block, a, l)] *= s.omega2[slot] * distortion_[slot];
     });
   });
+  for_coloured_blocks(el.blocks, [&](int block, int) {
+    add_to_corners(
+        el.blocks, block, [&](int a, int l) { return mass_[at(block, a, l)]; }, sum_);
+  });
+  el.finish_sum(sum_);
   for_blocks(el.blocks, [&](int block, int) {
-    for_corners(block, [&](int, double weight, NodeId n, double& mass) { mass = weight / sum_[n] * s.m[n]; });
+    for_corners(lanes, [&](int a, int l) {
+      const NodeId n(el.blocks.node[at(block, a, l)]);
+      mass_[at(block, a, l)] = mass_[at(block, a, l)] / sum_[n] * s.m[n];
+    });
   });
 }
 
@@ -69,7 +69,7 @@ void TimeStep::refresh(const Elements& el, const State& s, bool whole) {
     if (!whole && !has_collapsed(s, block)) return;
     std::visit(
         [&]<class M>(const M& material) {
-          const size_t in_body = size_t(block - el.blocks.first_block[size_t(body)]);
+          const size_t in_body = size_t(el.blocks.row_of(body, block));
           const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
           block_distortion(el, material, history, block, mass_, s, distortion_);
         },
@@ -102,6 +102,16 @@ Worst worst_of(const State& s, const Field<double, SlotId>& distortion) {
       worse);
 }
 
+/// Exact; ties: lowest slot, whichever rank has it.
+Worst worst_of_all(const Comm& comm, Worst w) {
+  for (const Worst& b : comm.gather_all(std::vector{w})) {
+    if (b.omega2 > w.omega2 || (b.omega2 == w.omega2 && b.limiting < w.limiting)) w.limiting = b.limiting;
+    w.omega2 = std::fmax(w.omega2, b.omega2);
+    if (b.inverted.valid() && !(w.inverted.valid() && w.inverted < b.inverted)) w.inverted = b.inverted;
+  }
+  return w;
+}
+
 }  // namespace
 
 double TimeStep::stable(const Elements& el, const State& s) {
@@ -112,6 +122,7 @@ double TimeStep::stable(const Elements& el, const State& s) {
     refresh(el, s, false);
     w = worst_of(s, distortion_);
   }
+  if (el.ranks) w = worst_of_all(el.ranks->comm(), w);
   limiting_ = w.limiting;
   inverted_ = w.inverted.valid() ? std::optional(w.inverted) : std::nullopt;
   return 2 / std::sqrt(w.omega2);
