@@ -147,10 +147,11 @@ std::string Output::write_fields(Model& m) {
   }
   if (!writes(m)) return "";
   last_dump_ = series_.next_path();
-  write_vtkhdf(last_dump_, mesh,
-               {VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
-                VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})},
-               cells);
+  std::vector<VtkField> points{VtkField::vectors("velocity", {s.v.data(), s.v.size()}),
+                               VtkField::vectors("X", {m.mesh.X.data(), m.mesh.X.size()})};
+  for (auto* fields : {&cells, &points})
+    for (VtkField& field : *fields) field.exact = case_.run.output.exact;
+  write_vtkhdf(last_dump_, mesh, points, cells);
   series_.add(s.t);
   return last_dump_;
 }

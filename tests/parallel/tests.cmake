@@ -17,3 +17,10 @@ foreach(failure "input;2" "physics;3" "coded;66" "bug;1" "silent;1")
   set_tests_properties(parallel_error_${kind} PROPERTIES ENVIRONMENT
     "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_hwloc_base_binding_policy=none;OMPI_MCA_mpi_yield_when_idle=1")
 endforeach()
+# csd on ranks and threads, bit for bit
+if(TARGET csd AND TARGET cfd)
+  foreach(group cracks bar coupled errors)
+    add_test(NAME parallel_csd_${group} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/csd.py ${CMAKE_BINARY_DIR} ${group})
+    set_tests_properties(parallel_csd_${group} PROPERTIES TIMEOUT 900)
+  endforeach()
+endif()

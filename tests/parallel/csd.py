@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""csd on 1, 2 and 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
+    csd.py BUILD_FOLDER [cracks | bar | coupled | errors ...]"""
+import os
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parents[1] / "run"), str(HERE.parents[1] / "tests" / "regression")]
+arguments = sys.argv[1:]
+os.environ["BREAKWAVE_BUILD"] = str(pathlib.Path(arguments.pop(0)).resolve())
+sys.argv = sys.argv[:2]  # the regression runs, whose shell is used here, read theirs
+import runs  # noqa: E402
+from fields import history, series, summary, Solid  # noqa: E402
+from verification import solid  # noqa: E402
+from verification.case import output, run  # noqa: E402
+
+STEEL = ('[solid.body.material]\nkind = "j2"\ndensity = 7760.0\nyoung_modulus = "206 GPa"\npoisson_ratio = 0.3\n'
+         + 'flow = {kind = "linear", yield_stress = "412 MPa", hardening = "2.78 GPa"}\n')
+# a shell that a pressure bursts, with a second body of another material, a filter and probes
+CRACKS = ('[time]\nend = "26 us"\n' + output("13 us", "1 us")
+          + '[solid.filter]\nkind = "self_adjoint"\nstrength = 0.5\n[solid.fracture]\ncriterion = {kind = "eqps", limit = 0.05}\n'
+          + '[[solid.body]]\nname = "shell"\nmesh = {kind = "shell_of_revolution", shape = "sphere", radius = "62 mm", wall = "6 mm", around = 24, through = 2}\n'
+          + STEEL
+          + '[[solid.body]]\nname = "block"\nmesh = {kind = "box", lower = ["0.1 m", 0, 0], upper = ["0.11 m", "10 mm", "10 mm"], cells = [3, 3, 3]}\n'
+          + 'material = {kind = "neo_hooke", density = 7760.0, young_modulus = "206 GPa", poisson_ratio = 0.3}\nvelocity = ["-50 m/s", 0.0, 0.0]\n'
+          + '[[solid.load]]\nkind = "pressure"\nfaces = ["shell.inner"]\ntimes = [0.0, "40 us"]\npressures = ["1 GPa", "0.5 GPa"]\n'
+          + '[[solid.condition]]\nkind = "fixed"\nnodes = "block.x_lower"\n'
+          + '[[solid.probe]]\nname = "wall"\nkind = "element"\nposition = ["59 mm", 0.0, 0.0]\n'
+          + '[[solid.probe]]\nname = "ring"\nkind = "ring"\nlower = "-5 mm"\nupper = "5 mm"\n')
+# the foot against a rigid wall, viscosity, plain filter: sums that every step makes
+BAR = ('[time]\nend = "6 us"\n' + output("3 us", "0.5 us")
+       + '[[solid.body]]\nname = "bar"\nmesh = {kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = 3, along = 24}\n'
+       + 'velocity = [0.0, 0.0, "-227 m/s"]\n' + solid.COPPER
+       + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n'
+       + '[[solid.probe]]\nname = "wall"\nkind = "wall_force"\n'
+       + '[solid.filter]\nkind = "plain"\nstrength = 0.5\n[solid.viscosity]\nlinear = 0.06\nquadratic = 1.5\n')
+LAYOUTS = [("1", 1), ("1", 2), ("2", 1), ("2", 2), ("4", 1)]
+TOTALS = ("steps", "t", "energies", "masses", "momenta", "counts")
+
+
+def totals_differ(one, two):
+    a, b = summary(one, "solid"), summary(two, "solid")
+    values = [{key: value for key, value in s["values"].items() if not key.endswith("_share")} for s in (a, b)]
+    return [f"solid_summary.json:{key}" for key in TOTALS if a[key] != b[key]] + (["solid_summary.json:values"] if values[0] != values[1] else [])
+
+
+def compare(name, text, layouts, only="solid"):
+    """Runs the layouts; texts of what is not as in the first."""
+    faults, first = [], None
+    for ranks, threads in layouts:
+        directory = run(f"ranks_{name}_{ranks}_{threads}", text, ranks=ranks, threads=threads, only=only).directory
+        if first is None:
+            first = directory
+            continue
+        different = runs.differences(first, directory) + totals_differ(first, directory)
+        share = summary(directory, "solid")["values"].get("exchange_share")
+        print(f"{name}: {ranks} ranks x {threads} threads: {'the same bits' if not different else 'DIFFERENT: ' + ', '.join(different[:6])}"
+              + (f" (exchange and waiting {100 * share:.0f} % of the time)" if share is not None else ""), flush=True)
+        faults += [f"{name} {ranks} x {threads}: other bits"] if different else []
+    return faults, first
+
+
+def cracks():
+    faults, directory = compare("cracks", CRACKS, LAYOUTS)
+    opened, pieces = (history(directory / "solid_history.csv")[key][-1] for key in ("opened_faces", "fragments"))
+    print(f"cracks: {opened:.0f} faces opened, {pieces:.0f} pieces")
+    exact = Solid(series(directory, "solid")[-1][1]).cell["sigma_m"].dtype == "float64"
+    return faults + ([] if opened > 100 and pieces > 3 else ["cracks: nothing cracks"]) + ([] if exact else ["cracks: the fields are not exact"])
+
+
+def bar():
+    return compare("bar", BAR, LAYOUTS)[0]
+
+
+def coupled():
+    return compare("coupled", runs.SHELL.replace('"30 us"', '"24 us"'), [("1+1", 1), ("2+1", 1)], only=None)[0]
+
+
+def errors():
+    """A rank too many is refused before the first step; an inverted element ends all ranks with its place."""
+    faults = []
+    small = BAR.replace("across = 3, along = 24", "across = 2, along = 1")
+    said = run("ranks_too_many", small, ranks="4", threads=1, expect=2).output
+    if "use fewer ranks" not in said:
+        faults.append(f"too many ranks: {said}")
+    hard = BAR.replace('end = "6 us"', 'end = "6 us"\nmax_steps = 400').replace("[solid.viscosity]", '[solid.time_step]\nfixed = "1 us"\n[solid.viscosity]')
+    texts = [run(f"ranks_inverted_{ranks}", hard, ranks=ranks, threads=1, expect=3).output for ranks in ("1", "2")]
+    lines = [[line for line in text.split("\n") if "element" in line and "error" in line] for text in texts]
+    if not lines[0] or lines[0][0] != (lines[1] or [""])[0]:
+        faults.append(f"inverted: {lines}")
+    print(f"errors: {lines[0][:1]}")
+    return faults
+
+
+if __name__ == "__main__":
+    groups = {"cracks": cracks, "bar": bar, "coupled": coupled, "errors": errors}
+    failures = [fault for group in arguments or groups for fault in groups[group]()]
+    print("\n".join(failures) or "all the same")
+    sys.exit(1 if failures else 0)
