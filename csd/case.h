@@ -13,7 +13,7 @@
 #include "csd/fracture/fracture.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/list.h"
-#include "csd/material/list.h"
+#include "csd/material/material_case.h"
 #include "csd/mesh/input.h"
 #include "csd/probe.h"
 

@@ -51,7 +51,7 @@ Pack damped_omega2(Pack omega2, Pack beta) {
 /// Forces of one block; returns the work spent in viscosity.
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
-                                    State& s) {
+                                    double per_dt, State& s) {
   double* history = history_of<M>(s, el, body, block);
   const int32_t* nodes = el.blocks.nodes_of(block);
   const int used = el.blocks.used[size_t(block)];
@@ -61,8 +61,8 @@ template <class M, class Mean>
     const Corners<Pack> x = gather(s.x.data(), nodes + l);
     const Pack V0 = Pack::load(&s.V0[slot]);
     Viscous viscous{Pack(0), Pack(0)};
-    const auto r = internal_force<Pack>(material, x, V0, history + l,
-                                        [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); });
+    const auto r = internal_force<Pack>(
+        material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); }, per_dt);
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
       scatter_border(r.f, nodes + l, places + l, count, s.f.data(), el.blocks.border.vectors);
@@ -107,12 +107,13 @@ struct General {
 
 /// Sum of the blocks' viscous work, in block order.
 template <class Mean>
-double all_forces(const Elements& el, const Mean& mean_of, State& s) {
+double all_forces(const Elements& el, const Mean& mean_of, double dt, State& s) {
+  const double per_dt = dt > 0 ? 1 / dt : 0;
   std::vector<double> work(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
   for_coloured_blocks(el.blocks, [&](int block, int body) {
     std::visit(
         [&](const auto& material) {
-          const double w = block_force(el, material, body, block, mean_of, s);
+          const double w = block_force(el, material, body, block, mean_of, per_dt, s);
           if constexpr (Mean::viscous) work[size_t(block)] = w;
         },
         el.materials[size_t(body)]);
@@ -128,8 +129,8 @@ double all_forces(const Elements& el, const Mean& mean_of, State& s) {
 
 double internal_force(const Elements& el, const MeanStress& how, State& s) {
   parallel_for(int64_t(s.f.size()), [&](int64_t n) { s.f[NodeId(n)] = {}; });
-  if (!how.given && !how.viscosity.on()) return all_forces(el, Plain{}, s);
-  return all_forces(el, General{how, s.volume}, s);
+  if (!how.given && !how.viscosity.on()) return all_forces(el, Plain{}, how.dt, s);
+  return all_forces(el, General{how, s.volume}, how.dt, s);
 }
 
 namespace {

@@ -58,7 +58,7 @@ struct BulkViscosity {
 struct MeanStress {
   const Field<double, SlotId>* given = nullptr;  ///< Pa, replaces U' (a filtered pressure); null: U'
   BulkViscosity viscosity;
-  double dt = 0;  ///< s since State::volume was taken, for the viscosity's rate
+  double dt = 0;  ///< s since State::volume was taken and flow was last committed, for rates
 };
 
 /// Fills State and the corner masses from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v =

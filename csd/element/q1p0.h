@@ -69,12 +69,13 @@ template <class T>
 
 /// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference
 /// volume, mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
-/// history: [8][M::components][lanes], at this element's lane.
+/// history: [8][M::components][lanes], at this element's lane. per_dt [1/s]: one over the time since the last call, for
+/// flow that depends on the rate; 0: no time passes.
 /// In stages over the eight points, so that the long dependent chains of one point (cube root, return map) overlap with
 /// those of the next.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
-                               const MeanStress& mean_stress) {
+                               const MeanStress& mean_stress, double per_dt = 0) {
   const Modes<T> modes = modes_of(x);
   const Columns<T> g = columns_of(modes);
   const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
@@ -102,7 +103,7 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
     trial[i].dev_det = det(dev);
   }
 #pragma GCC unroll 1
-  for (int i = 0; i < 8; ++i) response[i] = material.respond(trial[i], history + i * stride);
+  for (int i = 0; i < 8; ++i) response[i] = material.respond(trial[i], history + i * stride, per_dt);
   Columns<T> q{};
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {

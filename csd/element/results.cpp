@@ -33,22 +33,18 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
   r.elastic = V0 * material.volumetric.energy(J_bar);
   bool collapsed = false;
   for (int i = 0; i < 8; ++i) {
-    double at_point[M::components * lanes];  // a response commits history: into a copy
-    std::copy_n(history + i * M::components * lanes, (M::components - 1) * lanes + 1, at_point);
+    const double* at_point = history + i * M::components * lanes;
     const Point<double> p(g.at(0, i), g.at(1, i), g.at(2, i), load_sym<double>(at_point));
-    const double k = material.respond(p.trial, at_point).k, iso = p.trial.iso, J = std::sqrt(p.trial.J_squared),
-                 point_V0 = p.det_g / J;
-    r.sigma = r.sigma + (p.det_g * k / J) * p.dev_b;
-    const double e = k / material.mu, q = e * e * p.trial.dev2, det_s = e * e * e * p.trial.dev_det;
-    double third_trace = iso * p.trial.third_trace;
+    // what has flowed is in the history, so the stress is elastic in it: eq (6)
+    const double iso = p.trial.iso, J = std::sqrt(p.trial.J_squared), point_V0 = p.det_g / J;
+    r.sigma = r.sigma + (p.det_g * material.mu * iso / J) * p.dev_b;
+    r.elastic += point_V0 * 1.5 * material.mu * (iso * p.trial.third_trace - 1);
     if constexpr (M::plastic) {
-      third_trace = isochoric_third_trace(q, det_s, third_trace);
-      const double eqps = at_point[6 * lanes];
+      const double eqps = at_point[6 * lanes], work = material.plastic_work(at_point);
       r.eqps += 0.125 * eqps;
       r.eqps_max = std::max(r.eqps_max, eqps);
-      r.plastic += point_V0 * material.plastic_work(eqps);
+      r.plastic += point_V0 * work;
     }
-    r.elastic += point_V0 * 1.5 * material.mu * (third_trace - 1);
     collapsed |= p.trial.J_squared < collapse_ratio * collapse_ratio * J_bar * J_bar || p.det_g <= 0;
   }
   const double mean = sigma_m ? *sigma_m : material.volumetric.mean_stress(J_bar);

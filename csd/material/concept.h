@@ -10,18 +10,23 @@ namespace bw::csd {
 
 /// Isotropic materials whose Kirchhoff deviator is a multiple of dev b^e.
 ///   M::name            the word in the case file
-///   M::components      numbers of history per point: the six of A (point.h) first, then the model's own
+///   M::components      numbers of history per point: the six of A (point.h) first, then the model's own, which start
+///                      as 0
 ///   M::plastic         whether component 6 is eqps
-///   respond(trial, history)  end of the step; commits the model's own history (from component 6 on) but not A
-///   plastic_work(eqps) J/m^3 of reference volume spent since the start
+///   respond(trial, history, per_dt)  end of the step; commits the model's own history (from component 6 on) but not A.
+///                      per_dt [1/s]: one over the step; 0: no time passes, nothing has a rate
+///   plastic_work(history)  J/m^3 of reference volume spent since the start
+///   temperature(history)   K, of plastic materials
 template <class M>
-concept Material = std::derived_from<M, Elastic> &&
-    requires(const M m, const Trial<double>& t, double* history, double eqps) {
+concept Material = std::derived_from<M, Elastic> && requires(const M m, const Trial<double>& t, double* history) {
   { M::name } -> std::convertible_to<const char*>;
   { M::components } -> std::convertible_to<int>;
   { M::plastic } -> std::convertible_to<bool>;
-  { m.respond(t, history) } -> std::same_as<Response<double>>;
-  { m.plastic_work(eqps) } -> std::same_as<double>;
-};
+  { m.respond(t, history, 0.0) } -> std::same_as<Response<double>>;
+  { m.plastic_work(history) } -> std::same_as<double>;
+} &&(!M::plastic || requires(const M m, const double* history) {
+  { m.temperature(history) } -> std::same_as<double>;
+  { m.heat.specific_heat } -> std::convertible_to<double>;
+});
 
 }  // namespace bw::csd

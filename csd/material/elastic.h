@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Density and the two elastic constants that every solid has; kappa and mu follow (VALIDATION A.1).
+// What every solid has: density, two elastic constants with kappa and mu after them (VALIDATION A.1), a volumetric law.
 #pragma once
 #include <cmath>
 
@@ -16,9 +16,14 @@ struct Elastic {
   Volumetric volumetric;
 
   Elastic() = default;
-  Elastic(double density, double E_young, double nu) : density(density), E_young(E_young), nu(nu) { derive(); }
+  Elastic(double density, double E_young, double nu, const VolumetricLaws& law = {})
+      : density(density), E_young(E_young), nu(nu) {
+    volumetric.law = law;
+    derive();
+  }
   void derive() {
-    volumetric.kappa = E_young / (3 * (1 - 2 * nu));
+    const auto* hugoniot = std::get_if<MieGruneisen>(&volumetric.law);
+    volumetric.kappa = hugoniot ? density * hugoniot->c0 * hugoniot->c0 : E_young / (3 * (1 - 2 * nu));
     mu = E_young / (2 * (1 + nu));
   }
   /// m/s: waves in uniaxial strain, at rest.
@@ -34,6 +39,11 @@ struct Elastic {
     k.expect(nu > -1 && nu < 0.5, "poisson_ratio",
              "a number in (-1, 0.5); for nearly incompressible use 0.4999: at 0.5 the bulk modulus is infinite and no "
              "explicit step is stable");
+    struct Law {
+      VolumetricLaws& law;
+      void describe(K& k) { k.pick("kind", law, "how the mean stress depends on the volume"); }
+    } table{volumetric.law};
+    k.table("volumetric", table, "volumetric law; the paper's unless given");
     derive();
   }
 };

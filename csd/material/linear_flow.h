@@ -15,11 +15,12 @@ struct LinearFlow {
   T stress(T eqps) const {
     return T(sigma_Y) + T(K_iso) * eqps;  // eq (8)
   }
-  /// Int stress d(eqps) [J/m^3].
   template <class T>
-  T work(T eqps) const {
-    return eqps * (T(sigma_Y) + T(0.5 * K_iso) * eqps);
+  T slope(T) const {
+    return T(K_iso);
   }
+  /// Int stress d(eqps) [J/m^3].
+  double work(double eqps) const { return eqps * (sigma_Y + 0.5 * K_iso * eqps); }
   /// Root D >= 0 of norm - 2 mu_bar D - sqrt(2/3) stress(eqps + sqrt(2/3) D) = 0, for norm beyond the yield surface.
   template <class T>
   T multiplier(T norm, T mu_bar, T eqps) const {

@@ -13,13 +13,10 @@ struct NeoHooke : Elastic {
   using Elastic::Elastic;
 
   template <class T>
-  Response<T> respond(const Trial<T>& t, double*) const {
+  Response<T> respond(const Trial<T>& t, double*, double) const {
     return {T(mu) * t.iso, T(1), T(0)};  // eq (6)
   }
-  template <class T>
-  T plastic_work(T) const {
-    return T(0);
-  }
+  double plastic_work(const double*) const { return 0; }
 };
 static_assert(Material<NeoHooke>);
 

@@ -21,10 +21,8 @@ struct SaturationFlow {
   T slope(T eqps) const {
     return T(K_iso) + T((sigma_inf - sigma_Y) * delta) * exp(T(-delta) * eqps);
   }
-  template <class T>
-  T work(T eqps) const {
-    const T decayed = (T(1) - exp(T(-delta) * eqps)) * T(1 / delta);
-    return eqps * (T(sigma_inf) + T(0.5 * K_iso) * eqps) - T(sigma_inf - sigma_Y) * decayed;
+  double work(double eqps) const {
+    return eqps * (sigma_inf + 0.5 * K_iso * eqps) - (sigma_inf - sigma_Y) * (1 - exp(-delta * eqps)) / delta;
   }
   template <class T>
   T multiplier(T norm, T mu_bar, T eqps) const {

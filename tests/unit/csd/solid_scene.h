@@ -69,20 +69,20 @@ struct OneElement {
   double J0(int i) const { return 1 / std::sqrt(det(load_sym<double>(at(i)))); }
   const double* at(int i) const { return &history[size_t(i * M::components * lanes)]; }
   double eqps(int i) const { return at(i)[6 * lanes]; }
-  /// Forces at x; commits.
-  ElementForce<double> force(const Corners<double>& x) {
-    return internal_force<double>(material, x, V0, history.data(),
-                                  [&](double J) { return material.volumetric.mean_stress(J); });
+  /// Forces at x, dt after the last ones (0: no time passed); commits.
+  ElementForce<double> force(const Corners<double>& x, double dt = 0) {
+    return internal_force<double>(
+        material, x, V0, history.data(), [&](double J) { return material.volumetric.mean_stress(J); },
+        dt > 0 ? 1 / dt : 0);
   }
   Point<double> point(const Corners<double>& x, int i) const {
     const Columns<double> g = columns_of(modes_of(x));
     return {g.at(0, i), g.at(1, i), g.at(2, i), load_sym<double>(at(i))};
   }
-  /// Cauchy stress at a point, nothing committed.
+  /// Cauchy stress at a point for the history as it is.
   Sym3 cauchy(const Corners<double>& x, int i) const {
     const Point<double> p = point(x, i);
-    Aligned<double> copy(at(i), at(i) + (M::components - 1) * lanes + 1);
-    const double J = std::sqrt(p.trial.J_squared), k = material.respond(p.trial, copy.data()).k;
+    const double J = std::sqrt(p.trial.J_squared), k = material.mu * p.trial.iso;
     const double sigma_m = material.volumetric.mean_stress(volume_of(modes_of(x)) / V0);
     return (k / J) * p.dev_b + Sym3{sigma_m, sigma_m, sigma_m, 0, 0, 0};
   }
