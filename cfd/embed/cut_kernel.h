@@ -6,8 +6,13 @@
 // linear half-Riemann wall]:
 //   W_w = W_0 + s (W_0 - W_1),  W* = half-Riemann(W_w, wall),  line through W* (at the wall) and W_1, skipping W_0: any
 //   s in [0, 1]
-// gives the ghost value for the limited slope of cell 0 and, half a step later, the state at the cell face next to the
-// wall. Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
+// gives the ghost value for the limited slope of cell 0. Half a step later cell 0's state goes along that slope to the
+// wall, meets it there, and comes back to the cell face next to it.
+// That holds for a wall straight across the line. What passes a cell face along a slanted wall belongs to a wave that
+// comes in, and such a wave must not be prolonged from inside: at 45 degrees sound between wall and gas would grow. So
+// the slope counts by the cosine of twice the angle between line and normal, and nothing from 45 degrees on (first
+// order, stable).
+// Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
 #pragma once
 #include <cmath>
 #include <optional>
@@ -26,6 +31,10 @@ class CutKernel {
   /// A wall pressure above this share of the next cell's means a shock between them: the cell's own state goes to the
   /// wall. A line across the shock would make gas of wrong entropy, which stays at the wall.
   static constexpr double shock_ratio = 1.5;
+  /// Cosine between the walls of a cell below which it is a pocket: no line is drawn there, and the wall stands along
+  /// the cell's face and lets nothing through. Links cut by walls that disagree would each pass what the other should
+  /// stop, and lines prolonged through both feed each other: gas at rest in a corner blew up.
+  static constexpr double pocket_cosine = 0.8;
   using Flow = typename Eos::Flow;
   using Gas = WallGas<Eos>;
   using State = typename Gas::State;
@@ -107,6 +116,7 @@ class CutKernel {
   struct Predicted {
     State half;                ///< W(t + dt/2)
     double slope[3][Flow::n];  ///< limited, one-sided at walls
+    bool pocket;
   };
   struct Face {
     double F[Flow::n_flux];  ///< flux dt/h
@@ -152,17 +162,45 @@ class CutKernel {
     }
   }
 
+  /// Do the walls cut from cell c agree with the first one seen?
+  bool walls_agree(int c, const Vec3*& first) const {
+    for (int d = 0; d < 3; ++d) {
+      if (!shape_.used[size_t(d)]) continue;
+      for (int side = 0; side < 2; ++side) {
+        if (!cuts_->cut(c, d, side)) continue;
+        const Vec3& n = cuts_->wall(c, d, side).n;
+        if (!first) first = &n;
+        if (dot(*first, n) < pocket_cosine) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Is this cell next to an edge: do the walls around it, seen from it and from its open neighbours, disagree?
+  bool is_pocket(Cell x) const {
+    const Vec3* first = nullptr;
+    if (!walls_agree(x.c, first)) return true;
+    if (!first) return false;
+    for (int d = 0; d < 3; ++d)
+      for (int side = 0; side < 2; ++side)
+        if (shape_.used[size_t(d)] && !cuts_->cut(x.c, d, side) &&
+            !walls_agree(x.c + (side ? 1 : -1) * cuts_->step(d), first))
+          return true;
+    return false;
+  }
+
   const Predicted& predicted(Cell x) {
     if (const int32_t s = slot_[size_t(x.c)]; s >= 0) return predicted_[size_t(s)];
     slot_[size_t(x.c)] = int32_t(predicted_.size());
     predicted_.emplace_back();
     Predicted& r = predicted_.back();
+    r.pocket = is_pocket(x);
     const State mean = read(x);
     double half[n], mean_w[n];
     for (int q = 0; q < n; ++q) half[q] = mean_w[q] = mean[size_t(q)];
     for (int d = 0; d < 3; ++d) {
       const bool low = cuts_->cut(x.c, d, 0), high = cuts_->cut(x.c, d, 1);
-      if (!shape_.used[size_t(d)] || (low && high)) {
+      if (!shape_.used[size_t(d)] || (r.pocket && (low || high))) {
         for (double& s : r.slope[d]) s = 0;
         continue;
       }
@@ -220,6 +258,14 @@ class CutKernel {
     return f;
   }
 
+  /// w further along the slope of its cell in direction d; w itself where that is no gas.
+  static State on_slope(const State& w, const Predicted& own, int d, double share) {
+    State out = w;
+    for (size_t q = 0; q < size_t(n); ++q) out[q] += share * own.slope[d][q];
+    const bool physical = out[Gas::p] > 0.2 * w[Gas::p] && Gas::rho(out) > 0.2 * Gas::rho(w);
+    return physical ? out : w;
+  }
+
   /// Flux at the face of x whose link is cut; the wall stands where it will be at mid-step.
   Face wall_face(Cell x, int d, int side) {
     const WallSide& w = cuts_->wall(x.c, d, side);
@@ -229,32 +275,19 @@ class CutKernel {
     towards = std::min(towards, -0.1);
     const double shift = std::clamp(0.5 * dt_ * dot(w.v, w.n) / (towards * shape_.h[d]), -0.5, 0.5);
     const double s = std::max(w.s + shift, 0.0);
-    State other, half;
-    double inner[n];
-    bool line = false;
-    if (!cuts_->cut(x.c, d, 1 - side)) {
-      other = predicted(moved(x, d, side ? -1 : 1)).half;
-      line = true;
-    }
     const Predicted& own = predicted(x);
-    half = own.half;
-    for (int q = 0; q < n; ++q) inner[q] = half[size_t(q)] + 0.5 * out * own.slope[d][q];
-    typename Gas::AtWall star;
-    State face;
-    bool shock = !line;
-    if (line) {
-      const State mean = read(x), next = read(moved(x, d, side ? -1 : 1));
-      State back = half;  // the slope is the one at t
-      for (size_t q = 0; q < size_t(n); ++q) back[q] += next[q] - mean[q];
-      star = gas_->at_wall(Gas::beyond(half, back, s), w.n, w.v);
-      face = Gas::on_line(star.w, other, half, (s - 0.5) / (1 + s));
-      shock = star.w[Gas::p] > shock_ratio * other[Gas::p];
-    }
-    if (shock) {
-      star = gas_->at_wall(half, w.n, w.v);
+    double inner[n], beyond[n];
+    for (int q = 0; q < n; ++q) inner[q] = own.half[size_t(q)] + 0.5 * out * own.slope[d][q];
+    const double share = own.pocket ? 0 : std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
+    const State at_wall = on_slope(own.half, own, d, out * share * s);
+    typename Gas::AtWall star = gas_->at_wall(at_wall, w.n, w.v);
+    State face = on_slope(star.w, own, d, out * share * (0.5 - s));
+    if (own.pocket || star.w[Gas::p] > shock_ratio * read(moved(x, d, side ? -1 : 1))[Gas::p]) {
+      Vec3 normal = w.n;
+      if (own.pocket) normal = Vec3{}, normal[d] = -out;
+      star = gas_->at_wall(own.half, normal, w.v);
       face = star.w;
     }
-    double beyond[n];
     for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
     const Sound<double> in = sound(x), wall{std::sqrt(star.rho_c2 / Gas::rho(star.w)), Gas::rho(star.w)};
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
