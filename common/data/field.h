@@ -20,13 +20,14 @@ struct Id {
 using NodeId = Id<struct NodeTag>;
 using ElemId = Id<struct ElemTag>;
 
-/// Cache-line aligned storage, so that packs load in one piece.
+/// Cache-line aligned storage, so that packs load in one piece, with a line to spare behind: a load that begins at the last
+/// entry may reach beyond it.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
   AlignedAllocator() = default;
   template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T) + 64, std::align_val_t(64))); }
   void deallocate(T* p, size_t) { ::operator delete(p, std::align_val_t(64)); }
   friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
 };

@@ -55,9 +55,13 @@ inline Mask operator>(Pack a, Pack b) { return {a.v > b.v}; }
 inline Mask operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
 inline Mask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
 inline bool any(Mask m) {
+#if defined(__AVX__) && !defined(__AVX512F__)
+  return __builtin_ia32_movmskpd256(Pack::V(m.v)) != 0;
+#else
   int64_t r = 0;
   for (int i = 0; i < Pack::size; ++i) r |= m.v[i];
   return r != 0;
+#endif
 }
 inline bool all(Mask m) { return !any(!m); }
 inline Pack select(Mask m, Pack a, Pack b) { return m.v ? a.v : b.v; }
@@ -68,6 +72,36 @@ inline Pack sqrt(Pack a) {
   Pack r;
   for (int i = 0; i < Pack::size; ++i) r.v[i] = std::sqrt(a.v[i]);
   return r;
+}
+
+namespace detail {
+typedef double Quad __attribute__((vector_size(32)));
+typedef double QuadU __attribute__((vector_size(32), aligned(8), may_alias));
+inline Pack::V as_pack(Quad a, [[maybe_unused]] Quad b) {
+#if defined(__AVX512F__)
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+  return a;
+#endif
+}
+}  // namespace detail
+
+/// x, y, z of Pack::size points: the l-th at base + 3 at[l]. Reads one double beyond each.
+inline void load_points(const double* base, const int32_t* at, Pack& x, Pack& y, Pack& z) {
+  using namespace detail;
+  Quad part[3][Pack::size / 4];
+  for (int h = 0; h < Pack::size / 4; ++h) {
+    const auto load = [&](int l) { return Quad(*reinterpret_cast<const QuadU*>(base + 3 * int64_t(at[4 * h + l]))); };
+    const Quad a = load(0), b = load(1), c = load(2), d = load(3);
+    const Quad xz0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), xz1 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Quad y0 = __builtin_shufflevector(a, b, 1, 5, 3, 7), y1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    part[0][h] = __builtin_shufflevector(xz0, xz1, 0, 1, 4, 5);
+    part[1][h] = __builtin_shufflevector(y0, y1, 0, 1, 4, 5);
+    part[2][h] = __builtin_shufflevector(xz0, xz1, 2, 3, 6, 7);
+  }
+  constexpr int last = Pack::size / 4 - 1;
+  x.v = as_pack(part[0][0], part[0][last]), y.v = as_pack(part[1][0], part[1][last]),
+  z.v = as_pack(part[2][0], part[2][last]);
 }
 
 // The same words for double, so that a kernel template reads the same for both.
@@ -92,21 +126,52 @@ template <class V, class I> V number_as_bits(V n) {
   const V magic = 0x1p52 - V{};
   return V((I(n + magic) ^ I(magic)) << 20);
 }
-/// r^(-1/3), r > 0: linear guess on the bits, then three steps of third order. Relative error below 1e-15.
-template <class V, class I> V rcbrt(V r) {
-  const V guess = bits_as_number<V, I>(r) * (-1.0 / 3.0) + (4.0 / 3.0 * 1023.0 - 0.044) * 0x1p32;
-  V y = number_as_bits<V, I>(guess);
-  for (int k = 0; k < 3; ++k) {
-    const V h = 1.0 - r * y * (y * y);
-    y = y + y * h * (1.0 / 3.0 + h * (2.0 / 9.0));
+/// y[i] = r[i]^(-1/6), r > 0: linear guess on the bits (within 3.5 %), then two steps of the series of (1 - h)^(-1/6),
+/// h = 1 - r y^6: within 2e-5, then to round-off. N at a time, step by step, so that their dependent chains overlap.
+template <class V, class I, int N> void inverse_sixth_roots(const V* r, V* y) {
+  V h[N];
+  const auto miss = [&] {
+    for (int i = 0; i < N; ++i) {
+      const V y3 = y[i] * y[i] * y[i];
+      h[i] = 1.0 - (r[i] * y3) * y3;
+    }
+  };
+  for (int i = 0; i < N; ++i) {
+    const V guess = bits_as_number<V, I>(r[i]) * (-1.0 / 6.0) + (7.0 / 6.0 * 1023.0 - 0.0502) * 0x1p32;
+    y[i] = number_as_bits<V, I>(guess);
   }
-  return y;
+  miss();
+  for (int i = 0; i < N; ++i)
+    y[i] = y[i] + (y[i] * h[i]) * (1.0 / 6 + h[i] * (7.0 / 72 + h[i] * (91.0 / 1296 + h[i] * (1729.0 / 31104))));
+  miss();
+  for (int i = 0; i < N; ++i) y[i] = y[i] + (y[i] * h[i]) * (1.0 / 6 + h[i] * (7.0 / 72 + h[i] * (91.0 / 1296)));
 }
 }  // namespace detail
 
-/// r^(-1/3) for r > 0; the same operations in every lane and for double.
-inline Pack rcbrt(Pack r) { return detail::rcbrt<Pack::V, Mask::V>(r.v); }
-inline double rcbrt(double r) { return detail::rcbrt<detail::D1, detail::I1>(detail::D1{r})[0]; }
+/// y[i] = r[i]^(-1/6) for r > 0; the same operations in every lane and for double.
+template <int N> void inverse_sixth_roots(const Pack (&r)[N], Pack (&y)[N]) {
+  constexpr int group = N % 4 ? N : 4;
+  for (int i = 0; i < N; i += group) detail::inverse_sixth_roots<Pack::V, Mask::V, group>(&r[i].v, &y[i].v);
+}
+template <int N> void inverse_sixth_roots(const double (&r)[N], double (&y)[N]) {
+  for (int i = 0; i < N; ++i) {
+    const detail::D1 ri{r[i]};
+    detail::D1 yi;
+    detail::inverse_sixth_roots<detail::D1, detail::I1, 1>(&ri, &yi);
+    y[i] = yi[0];
+  }
+}
+template <class T> T inverse_sixth_root(T r) {
+  const T from[1] = {r};
+  T y[1];
+  inverse_sixth_roots(from, y);
+  return y[0];
+}
+/// r^(-1/3) for r > 0.
+template <class T> T rcbrt(T r) {
+  const T y = inverse_sixth_root(r);
+  return y * y;
+}
 
 namespace detail {
 template <class V, class I> V exp(V x) {

@@ -30,16 +30,23 @@ struct Modes {
   Vec<T> a[7];
 };
 
+/// x, y and z one after the other: eight values at a time stay in registers.
 template <class T>
 Modes<T> modes_of(const Corners<T>& corners) {
   const auto& x = corners.a;
-  const Vec<T> s0 = x[0] + x[1], s1 = x[3] + x[2], s2 = x[4] + x[5], s3 = x[7] + x[6];
-  const Vec<T> d0 = x[1] - x[0], d1 = x[2] - x[3], d2 = x[5] - x[4], d3 = x[6] - x[7];
-  const Vec<T> dp0 = d0 + d1, dp1 = d2 + d3, dm0 = d1 - d0, dm1 = d3 - d2;
-  const Vec<T> sp0 = s0 + s1, sp1 = s2 + s3, sm0 = s1 - s0, sm1 = s3 - s2;
-  const T w1(0.125), w2(0.125 * gauss), w3(0.125 / 3.0);
-  return {{w1 * (dp0 + dp1), w1 * (sm0 + sm1), w1 * (sp1 - sp0), w2 * (dm0 + dm1), w2 * (dp1 - dp0), w2 * (sm1 - sm0),
-           w3 * (dm1 - dm0)}};
+  Modes<T> m;
+  const auto component = [&](T Vec<T>::*c) {
+    const T s0 = x[0].*c + x[1].*c, s1 = x[3].*c + x[2].*c, s2 = x[4].*c + x[5].*c, s3 = x[7].*c + x[6].*c;
+    const T d0 = x[1].*c - x[0].*c, d1 = x[2].*c - x[3].*c, d2 = x[5].*c - x[4].*c, d3 = x[6].*c - x[7].*c;
+    const T dp0 = d0 + d1, dp1 = d2 + d3, dm0 = d1 - d0, dm1 = d3 - d2;
+    const T sp0 = s0 + s1, sp1 = s2 + s3, sm0 = s1 - s0, sm1 = s3 - s2;
+    const T w1(0.125), w2(0.125 * gauss), w3(0.125 / 3.0);
+    m.a[0].*c = w1 * (dp0 + dp1), m.a[1].*c = w1 * (sm0 + sm1), m.a[2].*c = w1 * (sp1 - sp0);
+    m.a[3].*c = w2 * (dm0 + dm1), m.a[4].*c = w2 * (dp1 - dp0), m.a[5].*c = w2 * (sm1 - sm0);
+    m.a[6].*c = w3 * (dm1 - dm0);
+  };
+  component(&Vec<T>::x), component(&Vec<T>::y), component(&Vec<T>::z);
+  return m;
 }
 
 /// A quantity per point that depends on two of the three signs: [direction][first sign + 2 * second sign]. The
@@ -59,33 +66,45 @@ struct Columns {
 template <class T>
 Columns<T> columns_of(const Modes<T>& m) {
   const auto& a = m.a;
-  const Vec<T> x_ez = a[4] + a[6], x_mz = a[4] - a[6], e_xz = a[5] + a[6], e_mz = a[5] - a[6];
-  const Vec<T> xp = a[0] + a[3], xm = a[0] - a[3], ep = a[1] + a[3], em = a[1] - a[3], zp = a[2] + a[4],
-               zm = a[2] - a[4];
-  return {{{xm - x_mz, xp - x_ez, xm + x_mz, xp + x_ez},
-           {em - e_mz, ep - e_xz, em + e_mz, ep + e_xz},
-           {zm - e_mz, zp - e_xz, zm + e_mz, zp + e_xz}}};
+  Columns<T> r;
+  const auto component = [&](T Vec<T>::*c) {
+    const auto direction = [&](Vec<T>(&col)[4], T base, T first, T second, T both) {
+      const T p = base + first, l = base - first, q = second + both, s = second - both;
+      col[0].*c = l - s, col[1].*c = p - q, col[2].*c = l + s, col[3].*c = p + q;
+    };
+    direction(r.col[0], a[0].*c, a[3].*c, a[4].*c, a[6].*c);
+    direction(r.col[1], a[1].*c, a[3].*c, a[5].*c, a[6].*c);
+    direction(r.col[2], a[2].*c, a[4].*c, a[5].*c, a[6].*c);
+  };
+  component(&Vec<T>::x), component(&Vec<T>::y), component(&Vec<T>::z);
+  return r;
 }
 
 /// Forces from the transposed map: f_a = - sum_g sum_k q_k(g) dN_a/dxi_k(g).
 template <class T>
 Corners<T> forces_from_columns(const Columns<T>& q) {
-  struct Sums {
-    Vec<T> base, first, second, both;
+  Corners<T> f;
+  const auto component = [&](T Vec<T>::*d) {
+    struct Sums {
+      T base, first, second, both;
+    };
+    const auto sums = [&](const Vec<T>(&c)[4]) -> Sums {
+      const T u = c[0].*d + c[1].*d, v = c[2].*d + c[3].*d, s = c[1].*d - c[0].*d, t = c[3].*d - c[2].*d;
+      return {u + v, s + t, v - u, t - s};
+    };
+    const Sums x = sums(q.col[0]), e = sums(q.col[1]), z = sums(q.col[2]);
+    const T w1(-0.125), w2(-0.125 * gauss), w3(-0.125 / 3.0);
+    const T F0 = w1 * x.base, F1 = w1 * e.base, F2 = w1 * z.base, F3 = w2 * (x.first + e.first),
+            F4 = w2 * (x.second + z.first), F5 = w2 * (e.second + z.second), F6 = w3 * (x.both + e.both + z.both);
+    // f_a = xi F0 + eta F1 + zeta F2 + xi eta F3 + xi zeta F4 + eta zeta F5 + xi eta zeta F6; l: zeta = -1, h: zeta = 1
+    const T l0 = F0 - F4, l1 = F1 - F5, l3 = F3 - F6, h0 = F0 + F4, h1 = F1 + F5, h3 = F3 + F6;
+    const T lm = l0 - l3, lp = l0 + l3, bm = F2 + l1, bp = F2 - l1;
+    const T hm = h0 - h3, hp = h0 + h3, tm = F2 - h1, tp = F2 + h1;
+    f.a[0].*d = -(bm + lm), f.a[1].*d = lm - bm, f.a[2].*d = lp - bp, f.a[3].*d = -(bp + lp);
+    f.a[4].*d = tm - hm, f.a[5].*d = tm + hm, f.a[6].*d = tp + hp, f.a[7].*d = tp - hp;
   };
-  const auto sums = [](const Vec<T>(&c)[4]) -> Sums {
-    const Vec<T> u = c[0] + c[1], v = c[2] + c[3], s = c[1] - c[0], t = c[3] - c[2];
-    return {u + v, s + t, v - u, t - s};
-  };
-  const Sums x = sums(q.col[0]), e = sums(q.col[1]), z = sums(q.col[2]);
-  const T w1(-0.125), w2(-0.125 * gauss), w3(-0.125 / 3.0);
-  const Vec<T> F0 = w1 * x.base, F1 = w1 * e.base, F2 = w1 * z.base, F3 = w2 * (x.first + e.first),
-               F4 = w2 * (x.second + z.first), F5 = w2 * (e.second + z.second), F6 = w3 * (x.both + e.both + z.both);
-  // f_a = xi F0 + eta F1 + zeta F2 + xi eta F3 + xi zeta F4 + eta zeta F5 + xi eta zeta F6; l: zeta = -1, h: zeta = 1
-  const Vec<T> l0 = F0 - F4, l1 = F1 - F5, l3 = F3 - F6, h0 = F0 + F4, h1 = F1 + F5, h3 = F3 + F6;
-  const Vec<T> lm = l0 - l3, lp = l0 + l3, bm = F2 + l1, bp = F2 - l1;
-  const Vec<T> hm = h0 - h3, hp = h0 + h3, tm = F2 - h1, tp = F2 + h1;
-  return {{-(bm + lm), lm - bm, lp - bp, -(bp + lp), tm - hm, tm + hm, tp + hp, tp - hp}};
+  component(&Vec<T>::x), component(&Vec<T>::y), component(&Vec<T>::z);
+  return f;
 }
 
 /// Volume, exact (the terms of det that do not average out over the signs).

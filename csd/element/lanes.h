@@ -7,14 +7,13 @@
 
 namespace bw::csd {
 
-/// Nodal values of the Pack::size elements that start at `nodes`, rows of which are `lanes` apart.
+/// Nodal values (of a Field: a little is read beyond its end) of the Pack::size elements that start at `nodes`, rows of
+/// which are `lanes` apart.
 inline Corners<Pack> gather(const Vec3* x, const int32_t* nodes) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const auto corner = [&](int a) {
     Vec<Pack> r;
-    for (int l = 0; l < Pack::size; ++l) {
-      const Vec3& from = x[nodes[a * lanes + l]];
-      r.x.set(l, from.x), r.y.set(l, from.y), r.z.set(l, from.z);
-    }
+    load_points(&x->x, nodes + a * lanes, r.x, r.y, r.z);
     return r;
   };
   return {{corner(0), corner(1), corner(2), corner(3), corner(4), corner(5), corner(6), corner(7)}};

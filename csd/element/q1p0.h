@@ -3,6 +3,8 @@
 //   f_a = - sum_g w_g s_g/J . grad N_a - sigma_m dv_e/dx_a        eq (15), internal part
 // is minus the derivative of sum_e V_e U(v_e/V_e) + sum_g W_bar_g, so forces and moments sum to zero.
 #pragma once
+#include <bit>
+
 #include "csd/element/hex.h"
 #include "csd/material/concept.h"
 
@@ -67,12 +69,47 @@ template <class T>
   }
 }
 
+/// Points of an element in the middle of a step.
+template <class T>
+struct Points {
+  T det_g[8];            ///< current volume per parent volume
+  Trial<T> trial[8];     ///< of those that flow
+  unsigned flowing = 0;  ///< a bit per point with a lane that yields
+};
+
+/// The points that yield flow: new history, and q loses what their stresses lose. In two rounds, so that the long
+/// dependent chains of one point's return overlap with those of the next. Out of line: an elastic element has none.
+template <class T, class M>
+[[gnu::noinline, gnu::flatten]] static void flow(const M& material, const Columns<T>& g, const Points<T>& p,
+                                                 double* history, double per_dt, Columns<T>& q) {
+  constexpr int stride = M::components * lanes;
+  Response<T> response[8];
+  for (unsigned left = p.flowing; left; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    response[i] = material.respond(p.trial[i], history + i * stride, per_dt);
+  }
+  for (unsigned left = p.flowing; left; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    double* at_point = history + i * stride;
+    const Sym<T> A = load_sym<T>(at_point);
+    const Trial<T>& t = p.trial[i];
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const Vec<T> c1 = cross(g2, g3), c2 = cross(g3, g1), c3 = cross(g1, g2);
+    const T k = (response[i].k - T(material.mu) * t.iso) * t.inverse_J;  // 0 in lanes that don't yield
+    const T on_h = k * p.det_g[i], on_c = -k * t.third_trace;
+    q.at(0, i) += on_h * (A.xx * g1 + A.xy * g2 + A.xz * g3) + on_c * c1;
+    q.at(1, i) += on_h * (A.xy * g1 + A.yy * g2 + A.yz * g3) + on_c * c2;
+    q.at(2, i) += on_h * (A.xz * g1 + A.yz * g2 + A.zz * g3) + on_c * c3;
+    store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (p.det_g[i] * p.det_g[i])));
+  }
+}
+
 /// Forces of one element (or a pack of them) at positions x; commits the material's new history. V0 [m^3] reference
 /// volume, mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
 /// history: [8][M::components][lanes], at this element's lane. per_dt [1/s]: one over the time since the last call, for
 /// flow that depends on the rate; 0: no time passes.
-/// In stages over the eight points, so that the long dependent chains of one point (cube root, return map) overlap with
-/// those of the next.
+/// First as if no point flowed, then those that do are mended. The roots of J of all points come before anything else,
+/// so that their long chains overlap.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
                                const MeanStress& mean_stress, double per_dt = 0) {
@@ -81,45 +118,56 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
   const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
   const T least_squared = T(collapse_ratio * collapse_ratio) * J_bar * J_bar;
   constexpr int stride = M::components * lanes;
-  T det_g[8], collapsed(0);
-  Trial<T> trial[8];
-  Response<T> response[8];
+  Points<T> p;
+  T J_squared[8], root[8], collapsed(0);
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
-    det_g[i] = triple(g.at(0, i), g.at(1, i), g.at(2, i));
-    trial[i].J_squared = squared_ratio(load_sym<T>(history + i * stride), det_g[i]);
-    trial[i].iso = rcbrt(trial[i].J_squared);
-    collapsed = select((trial[i].J_squared < least_squared) | (det_g[i] <= T(0)), T(1), collapsed);
+    p.det_g[i] = triple(g.at(0, i), g.at(1, i), g.at(2, i));
+    J_squared[i] = squared_ratio(load_sym<T>(history + i * stride), p.det_g[i]);
+    collapsed = select((J_squared[i] < least_squared) | (p.det_g[i] <= T(0)), T(1), collapsed);
   }
-#pragma GCC unroll 1
-  for (int i = 0; i < 8; ++i) {
-    const Sym<T> A = load_sym<T>(history + i * stride);
-    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
-    const Sym<T> b = left_cauchy_green<T>(A.xx * g1 + A.xy * g2 + A.xz * g3, A.xy * g1 + A.yy * g2 + A.yz * g3,
-                                          A.xz * g1 + A.yz * g2 + A.zz * g3, g1, g2, g3);
-    const Sym<T> dev = deviator(b);
-    trial[i].third_trace = trace(b) * T(1.0 / 3.0);
-    trial[i].dev2 = contract(dev, dev);
-    trial[i].dev_det = det(dev);
-  }
-#pragma GCC unroll 1
-  for (int i = 0; i < 8; ++i) response[i] = material.respond(trial[i], history + i * stride, per_dt);
+  inverse_sixth_roots(J_squared, root);
   Columns<T> q{};
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
-    double* at_point = history + i * stride;
+    const double* at_point = history + i * stride;
+    for (int c = 0; c < M::components; ++c)
+      __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
     const Sym<T> A = load_sym<T>(at_point);
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
-    const Vec<T> c1 = cross(g2, g3), c2 = cross(g3, g1), c3 = cross(g1, g2);
+    Vec<T> h1, h2, h3;
+    const auto convect = [&](T Vec<T>::*c) {  // h_k = A^kl g_l
+      h1.*c = A.xx * g1.*c + A.xy * g2.*c + A.xz * g3.*c;
+      h2.*c = A.xy * g1.*c + A.yy * g2.*c + A.yz * g3.*c;
+      h3.*c = A.xz * g1.*c + A.yz * g2.*c + A.zz * g3.*c;
+    };
+    const auto product = [&](T Vec<T>::*c, T Vec<T>::*d) { return h1.*c * g1.*d + h2.*c * g2.*d + h3.*c * g3.*d; };
+    Sym<T> b;  // b^e
+    convect(&Vec<T>::x);
+    b.xx = product(&Vec<T>::x, &Vec<T>::x), b.xy = product(&Vec<T>::x, &Vec<T>::y),
+    b.xz = product(&Vec<T>::x, &Vec<T>::z);
+    convect(&Vec<T>::y);
+    b.yy = product(&Vec<T>::y, &Vec<T>::y), b.yz = product(&Vec<T>::y, &Vec<T>::z);
+    convect(&Vec<T>::z);
+    b.zz = product(&Vec<T>::z, &Vec<T>::z);
+    const T iso = root[i] * root[i], inverse_J = iso * root[i];
+    const T third_trace = trace(b) * T(1.0 / 3.0);
+    const Sym<T> dev{b.xx - third_trace, b.yy - third_trace, b.zz - third_trace, b.xy, b.xz, b.yz};
     // dev sigma = k dev b^e / J; times c_k: k/J (det_g h_k - t c_k), as b^e c_k = det_g h_k
-    const T k = response[i].k * trial[i].iso * sqrt(trial[i].iso);
-    const T on_h = k * det_g[i], on_c = sigma_m - k * trial[i].third_trace;
-    q.at(0, i) += on_h * (A.xx * g1 + A.xy * g2 + A.xz * g3) + on_c * c1;
-    q.at(1, i) += on_h * (A.xy * g1 + A.yy * g2 + A.yz * g3) + on_c * c2;
-    q.at(2, i) += on_h * (A.xz * g1 + A.yz * g2 + A.zz * g3) + on_c * c3;
-    if (response[i].flows)
-      store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (det_g[i] * det_g[i])));
+    const T k = T(material.mu) * iso * inverse_J;  // eq (6)
+    const T on_h = k * p.det_g[i], on_c = sigma_m - k * third_trace;
+    q.at(0, i) += on_h * h1 + on_c * cross(g2, g3);
+    q.at(1, i) += on_h * h2 + on_c * cross(g3, g1);
+    q.at(2, i) += on_h * h3 + on_c * cross(g1, g2);
+    const T dev2 = contract(dev, dev);
+    if constexpr (M::plastic)
+      if (any(material.yields(iso, dev2, at_point))) {
+        p.flowing |= 1u << i;
+        p.trial[i] = {J_squared[i], iso, inverse_J, third_trace, dev2, det(dev)};
+      }
   }
+  if constexpr (M::plastic)
+    if (p.flowing) flow(material, g, p, history, per_dt, q);
   if (any(collapsed > T(0))) [[unlikely]] {
     T correction(0);
     collapse_guard(g, history, M::components, J_bar, volume, T(material.volumetric.kappa), q, correction);

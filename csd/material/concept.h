@@ -13,8 +13,9 @@ namespace bw::csd {
 ///   M::components      numbers of history per point: the six of A (point.h) first, then the model's own, which start
 ///                      as 0
 ///   M::plastic         whether component 6 is eqps
-///   respond(trial, history, per_dt)  end of the step; commits the model's own history (from component 6 on) but not A.
-///                      per_dt [1/s]: one over the step; 0: no time passes, nothing has a rate
+///   yields(iso, dev2, history)  of plastic ones: lanes whose trial (point.h) is beyond the yield surface
+///   respond(trial, history, per_dt)  where a lane yields, the end of the step; commits the model's own history (from
+///                      component 6 on) but not A. per_dt [1/s]: one over the step; 0: no time passes, nothing has a rate
 ///   plastic_work(history)  J/m^3 of reference volume spent since the start
 ///   temperature(history)   K, of plastic materials
 template <class M>
@@ -25,6 +26,7 @@ concept Material = std::derived_from<M, Elastic> && requires(const M m, const Tr
   { m.respond(t, history, 0.0) } -> std::same_as<Response<double>>;
   { m.plastic_work(history) } -> std::same_as<double>;
 } &&(!M::plastic || requires(const M m, const double* history) {
+  { m.yields(1.0, 1.0, history) } -> std::same_as<bool>;
   { m.temperature(history) } -> std::same_as<double>;
   { m.heat.specific_heat } -> std::convertible_to<double>;
 });

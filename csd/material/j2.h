@@ -20,6 +20,11 @@ struct J2 : Elastic {
   J2(const Elastic& elastic, const Flow& flow, const Heat& heat = {}) : Elastic(elastic), flow(flow), heat(heat) {}
 
   template <class T>
+  auto yields(T iso, T dev2, const double* history) const {
+    const T k_trial = T(mu) * iso, radius = T(0.81649658092772603) * flow.stress(load<T>(history + 6 * lanes));
+    return k_trial * k_trial * dev2 > radius * radius;
+  }
+  template <class T>
   Response<T> respond(const Trial<T>& t, double* history, double) const {
     const T eqps = load<T>(history + 6 * lanes);
     const T k_trial = T(mu) * t.iso;                              // s_trial = k dev b^e, eq (6)

@@ -64,8 +64,9 @@ Sym<T> metric(const Vec<T>& c1, const Vec<T>& c2, const Vec<T>& c3, T inverse_de
 /// All that an isotropic material needs: the invariants of b^e (not isochoric), and J.
 template <class T>
 struct Trial {
-  T J_squared;    ///< det b^e
-  T iso;          ///< J^(-2/3): b_bar = iso b^e
+  T J_squared;  ///< det b^e
+  T iso;        ///< J^(-2/3): b_bar = iso b^e
+  T inverse_J;
   T third_trace;  ///< tr b^e / 3
   T dev2;         ///< |dev b^e|^2
   T dev_det;      ///< det dev b^e
@@ -96,7 +97,8 @@ struct Point {
     trial.third_trace = trace(b) * T(1.0 / 3.0);
     dev_b = {b.xx - trial.third_trace, b.yy - trial.third_trace, b.zz - trial.third_trace, b.xy, b.xz, b.yz};
     trial.J_squared = squared_ratio(A, det_g);
-    trial.iso = rcbrt(trial.J_squared);
+    const T root = inverse_sixth_root(trial.J_squared);
+    trial.iso = root * root, trial.inverse_J = trial.iso * root;
     trial.dev2 = contract(dev_b, dev_b);
     trial.dev_det = det(dev_b);
   }

@@ -35,6 +35,11 @@ struct RateJ2 : Elastic {
         heating(heat.rise(density)) {}
 
   template <class T>
+  auto yields(T iso, T dev2, const double* history) const {
+    const T rest = T(first_yield) + load<T>(history + 8 * lanes), k_trial = T(mu) * iso;
+    return T(1.5) * k_trial * k_trial * dev2 > rest * rest;
+  }
+  template <class T>
   Response<T> respond(const Trial<T>& t, double* history, double per_dt) const {
     const T rest = T(first_yield) + load<T>(history + 8 * lanes);
     const T k_trial = T(mu) * t.iso;                   // s_trial = k dev b^e, eq (6)
