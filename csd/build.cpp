@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/app/log.h"
+#include "csd/ranks/needed.h"
 #include "csd/step.h"
 
 namespace bw::csd {
@@ -65,8 +66,10 @@ Model build(const Case& cs, const Comm& comm) {
   State s;
   Physics ph = build_physics(cs.solid, mesh, comm, s);
   set_initial_velocities(cs.solid, mesh, s);
+  if (ph.elements.ranks) ph.elements.ranks->follow(nodes_needed_everywhere(mesh, cs.solid.loads, ph.conditions), s);
   Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
   first_forces(model);
+  if (const auto& ranks = model.physics.elements.ranks) ranks->complete(model.state);
   model.physics.energy.initial = energy_row(model.physics, model.state).residual;
   return model;
 }

@@ -40,6 +40,7 @@ std::vector<double> areal_mass(const Model& m, const Surface& surface) {
 
 Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m)
     : case_(cs), surface_(m.mesh, m.topology, cs.solid.wet.faces, cs.solid.wet.place) {
+  if (const auto& ranks = m.physics.elements.ranks) ranks->follow_all(m.state);
   if (!m.physics.loads) m.physics.loads.emplace(m.mesh, std::vector<LoadKind>{});
   surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
   make_folder(cs.run.output.directory);

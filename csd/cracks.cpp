@@ -15,7 +15,8 @@ Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t)
       fragments_(mesh, t),
       fail_(size_t(mesh.elem_count())) {}
 
-void Cracks::update_fail(const Model& m) {
+/// Returns whether any element is broken; then all ranks know all values.
+bool Cracks::update_fail(const Model& m) {
   const Elements& el = m.physics.elements;
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
   std::visit(
@@ -32,31 +33,35 @@ void Cracks::update_fail(const Model& m) {
         });
       },
       criterion_);
+  const double worst = parallel_max(int64_t(fail_.size()), 0.0,
+                                    [&](int64_t e) { return el.blocks.is_own(ElemId(e)) ? fail_[size_t(e)] : 0; });
+  if ((el.ranks ? el.ranks->comm().max(worst) : worst) < 1) return false;
   if (el.ranks) el.ranks->complete(fail_);
+  return true;
 }
 
-/// Those that may be asked for in this step: broken, or next to one that is.
-std::vector<Sym3> Cracks::stresses(const Model& m) const {
-  const Elements& el = m.physics.elements;
-  const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
+/// [element] Those whose stress may be asked for in this step: broken, or next to one that is.
+std::vector<char> Cracks::near_broken(const Model& m) const {
   std::vector<char> is_asked(fail_.size(), 0);
   for (int32_t e = 0; e < m.mesh.elem_count(); ++e)
     if (fail_[size_t(e)] >= 1)
       for (NodeId n : m.mesh.hex[ElemId(e)])
         for (ElemId near : m.topology.elements(n)) is_asked[size_t(near)] = 1;
-  return el.ranks->complete_some<Sym3>(
-      is_asked, [&](ElemId e) { return evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma; });
+  return is_asked;
 }
 
 bool Cracks::advance(Model& m) {
-  update_fail(m);
+  if (!update_fail(m)) return false;
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
   const Elements& el = m.physics.elements;
-  const bool any = std::any_of(fail_.begin(), fail_.end(), [](double f) { return f >= 1; });
-  const std::vector<Sym3> known = el.ranks && any ? stresses(m) : std::vector<Sym3>{};
-  const auto sigma = [&](ElemId e) {
-    return el.ranks ? known[size_t(e)] : evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma;
-  };
+  const auto own = [&](ElemId e) { return evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma; };
+  std::vector<Sym3> of_all;  // several ranks: the same cracks on each
+  if (el.ranks) {
+    const std::vector<char> is_asked = near_broken(m);
+    of_all = el.ranks->complete_some<Sym3>(is_asked, own);
+    el.ranks->complete_positions(m.mesh, is_asked, m.state);
+  }
+  const auto sigma = [&](ElemId e) { return el.ranks ? of_all[size_t(e)] : own(e); };
   const bool opened =
       fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
   if (opened) take_over(m, splits_, changed_);
@@ -67,7 +72,7 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
   auto& [mesh, topology, s, ph] = m;
   const double filter_energy = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
   s.append_copies(splits);
-  if (ph.elements.ranks) ph.elements.ranks->append_copies(splits);
+  if (ph.elements.ranks) ph.elements.ranks->append_copies(splits, s);
   if (ph.loads) ph.loads->append_copies(splits);
   for (ElemId e : changed) ph.elements.blocks.renew(mesh, e);
   std::vector<NodeId> touched;

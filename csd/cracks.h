@@ -18,15 +18,15 @@ class Cracks {
 
   /// Opens what breaks at the model's time. Returns true if the topology changed.
   bool advance(Model& model);
-  /// Failure value of each element at the last step, before smoothing.
+  /// Failure value of each element at the last step, before smoothing; of several ranks' only the own ones are sure.
   const std::vector<double>& fail() const { return fail_; }
   /// Up to date with all cracks; those that broke off since the last call are born now.
   const Fragments& fragments(const Model& model);
   int64_t opened_faces() const { return fracture_.opened(); }
 
  private:
-  void update_fail(const Model& model);
-  std::vector<Sym3> stresses(const Model& model) const;
+  bool update_fail(const Model& model);
+  std::vector<char> near_broken(const Model& model) const;
   void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
 
   Criteria criterion_;

@@ -70,6 +70,13 @@ double Output::next_time(double t) const {
   return std::fmin(next, t_end_);
 }
 
+/// Nodal fields are right everywhere, once for each time at which something is written.
+void Output::complete(Model& m) {
+  if (m.state.t == t_complete_) return;
+  t_complete_ = m.state.t;
+  if (const auto& ranks = m.physics.elements.ranks) ranks->complete(m.state);
+}
+
 void Output::write_due(Model& model) {
   if (rows_.due(model.state.t)) write_row(model);
   if (fields_.due(model.state.t)) write_fields(model);
@@ -79,6 +86,7 @@ void Output::write_row(Model& m) {
   State& s = m.state;
   if (s.t == t_row_) return;
   t_row_ = s.t;
+  complete(m);
   energy_ = energy_row(m.physics, s);
   mass_ = mass_of(s), momentum_ = momentum_of(s);
   std::vector<double> row{s.t,
@@ -114,6 +122,7 @@ std::string Output::write_fields(Model& m) {
   const State& s = m.state;
   if (s.t == t_fields_) return last_dump_;
   t_fields_ = s.t;
+  complete(m);
   const auto& blocks = m.physics.elements.blocks;
   const size_t n = size_t(m.mesh.elem_count());
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
@@ -139,10 +148,13 @@ std::string Output::write_fields(Model& m) {
                               VtkField::integers("body", std::span<const int32_t>(m.mesh.body.data(), n)),
                               VtkField::integers("gid", std::span<const int64_t>(m.mesh.elem_gid.data(), n))};
   std::vector<int64_t> frag_id;
+  std::vector<double> fail;
   if (auto& cracks = m.physics.cracks) {
     const Fragments& fragments = cracks->fragments(m);
     for (int32_t label : fragments.label()) frag_id.push_back(fragments.id(label));
-    cells.push_back(VtkField::scalars("fail", cracks->fail()));
+    fail = cracks->fail();
+    if (const auto& ranks = m.physics.elements.ranks) ranks->complete(fail);
+    cells.push_back(VtkField::scalars("fail", fail));
     cells.push_back(VtkField::integers("frag_id", frag_id));
   }
   if (!writes(m)) return "";
@@ -157,6 +169,7 @@ std::string Output::write_fields(Model& m) {
 }
 
 void Output::write_fragment_table(Model& m) {
+  complete(m);
   const Elements& el = m.physics.elements;
   std::vector<double> eqps(size_t(m.mesh.elem_count()));
   for (size_t e = 0; e < eqps.size(); ++e)

@@ -30,6 +30,7 @@ class Output {
   const std::string& last_dump() const { return last_dump_; }
 
  private:
+  void complete(Model& model);
   void write_row(Model& model);
   void write_fragment_table(Model& model);
   std::string limiter(const Model& model) const;
@@ -46,7 +47,7 @@ class Output {
   double mass_ = 0, collapsed_ = 0;
   Vec3 momentum_;
   std::string last_dump_;
-  double t_row_ = -1, t_fields_ = -1;
+  double t_complete_ = -1, t_row_ = -1, t_fields_ = -1;
   double element_steps_ = 0;
   std::chrono::steady_clock::time_point start_;
 };

@@ -18,10 +18,13 @@ namespace {
 
 [[noreturn]] void fail(const Model& m, SlotId slot, const std::string& last_dump) {
   const ElemId e = m.physics.elements.blocks.elem[slot];
-  Vec3 c;
-  for (NodeId n : m.mesh.hex[e]) c += 0.125 * m.state.x[n];
-  double v = m.state.volume[slot];
-  if (const auto& ranks = m.physics.elements.ranks) v = ranks->from_owner(m.physics.elements.blocks, e, v);
+  struct {
+    Vec3 c;
+    double v;
+  } at{{}, m.state.volume[slot]};
+  for (NodeId n : m.mesh.hex[e]) at.c += 0.125 * m.state.x[n];
+  if (const auto& ranks = m.physics.elements.ranks) at = ranks->from_owner(m.physics.elements.blocks, e, at);
+  const auto& [c, v] = at;
   throw PhysicsError(fmt::format("element {} of body {} at ({:.6g}, {:.6g}, {:.6g}) m {}, step {}, t = {:.9g} s{}",
                                  m.mesh.elem_gid[e], m.mesh.body[e], c.x, c.y, c.z,
                                  std::isnan(v)

@@ -27,7 +27,16 @@ struct State {
   Field<double, SlotId> omega2;          ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
   Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress
   Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
-  std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes]
+  std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes], of this rank's blocks
+
+  std::vector<int32_t> followed;  ///< nodes whose x, v, f are kept up to date on this rank; empty: all
+  template <class Work>
+  void for_nodes(const Work& work) const {
+    if (followed.empty())
+      parallel_for(int64_t(m.size()), [&](int64_t n) { work(NodeId(n)); });
+    else
+      parallel_for(int64_t(followed.size()), [&](int64_t i) { work(NodeId(followed[size_t(i)])); });
+  }
 
   enum Use { none = 0, output = 1 };
   /// visit(name, field, unit, use) for every field; Field<T, NodeId> are nodal, Field<T, SlotId> per element.

@@ -74,6 +74,23 @@ void Comm::complete(std::span<double> all, std::span<const int> start) const {
             "MPI_Allgatherv");
 }
 
+void Comm::exchange(const std::vector<std::vector<double>>& send, std::vector<std::vector<double>>& receive) const {
+  constexpr int tag = 1;
+  std::vector<MPI_Request> started;
+  for (int r = 0; r < size_; ++r)
+    if (auto& in = receive[size_t(r)]; !in.empty())
+      check_mpi(MPI_Irecv(in.data(), int(in.size()), MPI_DOUBLE, r, tag, comm_, &started.emplace_back()), "MPI_Irecv");
+  for (int r = 0; r < size_; ++r)
+    if (const auto& out = send[size_t(r)]; !out.empty())
+      check_mpi(MPI_Isend(out.data(), int(out.size()), MPI_DOUBLE, r, tag, comm_, &started.emplace_back()), "MPI_Isend");
+  check_mpi(MPI_Waitall(int(started.size()), started.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+}
+
+void Comm::gather_bytes(const void* data, size_t bytes, void* all) const {
+  if (size_ > 1)
+    check_mpi(MPI_Allgather(data, int(bytes), MPI_BYTE, all, int(bytes), MPI_BYTE, comm_), "MPI_Allgather");
+}
+
 std::vector<char> Comm::gather_bytes(const void* data, size_t bytes) const {
   const char* begin = static_cast<const char*>(data);
   if (size_ == 1) return bytes ? std::vector<char>(begin, begin + bytes) : std::vector<char>();

@@ -37,11 +37,20 @@ class Comm {
   template <class T> std::vector<T> gather_all(const std::vector<T>& mine) const;
   /// Rank r knows all[start[r]] ... all[start[r + 1] - 1]; afterwards all ranks know all of it. start [size + 1].
   void complete(std::span<double> all, std::span<const int> start) const;
+  /// One item of each rank, in rank order.
+  template <class T> std::vector<T> gather_one(const T& mine) const {
+    std::vector<T> all(static_cast<size_t>(size_), mine);
+    gather_bytes(&mine, sizeof mine, all.data());
+    return all;
+  }
+  /// send[r] goes to rank r, receive[r] is filled by it. Both know the sizes; where they are empty nothing travels.
+  void exchange(const std::vector<std::vector<double>>& send, std::vector<std::vector<double>>& receive) const;
 
  private:
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   std::vector<char> gather_bytes(const void* data, size_t bytes) const;
+  void gather_bytes(const void* data, size_t bytes, void* all) const;
 };
 
 template <class T>

@@ -43,7 +43,7 @@ struct Blocks {
   Field<ElemId, SlotId> elem;  ///< padding: the element that it copies
   Field<SlotId, ElemId> slot;
   std::vector<int> first_block;             ///< [bodies + 1]
-  std::vector<std::vector<Chunk>> colours;  ///< of this rank's blocks
+  std::vector<std::vector<Chunk>> colours;  ///< those with blocks of this rank
   std::vector<std::vector<int32_t>> own;    ///< [body] this rank's blocks, ascending; empty on one rank: all
   std::vector<int32_t> own_row;             ///< [block] place in own[body], -1: another rank's; empty on one rank
   Border border;
@@ -71,7 +71,8 @@ void for_coloured_blocks(const Blocks& blocks, const Work& work) {
   for (const auto& chunks : blocks.colours)
     parallel_for_dynamic(int64_t(chunks.size()), [&](int64_t i) {
       const Chunk& c = chunks[size_t(i)];
-      for (int b = c.first; b < c.last; ++b) work(b, c.body);
+      for (int b = c.first; b < c.last; ++b)
+        if (blocks.is_own(b)) work(b, c.body);
     });
 }
 /// visit(corner, lane) for the elements of a block in the order in which they add to their nodes.

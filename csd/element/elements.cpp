@@ -128,7 +128,7 @@ double all_forces(const Elements& el, const Mean& mean_of, double dt, State& s) 
 }  // namespace
 
 double internal_force(const Elements& el, const MeanStress& how, State& s) {
-  parallel_for(int64_t(s.f.size()), [&](int64_t n) { s.f[NodeId(n)] = {}; });
+  s.for_nodes([&](NodeId n) { s.f[n] = {}; });
   if (!how.given && !how.viscosity.on()) return all_forces(el, Plain{}, how.dt, s);
   return all_forces(el, General{how, s.volume}, how.dt, s);
 }

@@ -33,8 +33,8 @@ void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<dou
 }
 
 /// Nodal sums of what elements have.
-void nodal_sums(const Elements& el, const Field<double, SlotId>& a, Field<double, NodeId>& sum) {
-  parallel_for(int64_t(sum.size()), [&](int64_t n) { sum[NodeId(n)] = 0; });
+void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>& a, Field<double, NodeId>& sum) {
+  s.for_nodes([&](NodeId n) { sum[n] = 0; });
   for_coloured_blocks(el.blocks, [&](int block, int) {
     add_to_corners(
         el.blocks, block, [&](int, int l) { return a[SlotId(block * lanes + l)]; }, sum);
@@ -59,7 +59,7 @@ PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const S
 void PressureFilter::renew(const Elements& el, const State& s) {
   weight_.resize(s.x.size());
   sum_.resize(s.x.size());
-  nodal_sums(el, s.V0, weight_);
+  nodal_sums(el, s, s.V0, weight_);
 }
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
@@ -68,7 +68,7 @@ void PressureFilter::average(const Elements& el, const State& s, const Field<dou
     for (SlotId slot(block * lanes); slot < (block + 1) * lanes; slot = SlotId(slot + 1))
       out[slot] = s.V0[slot] * a[slot];
   });
-  nodal_sums(el, out, sum_);
+  nodal_sums(el, s, out, sum_);
   for_blocks(el.blocks, [&](int block, int) {
     const int32_t* nodes = el.blocks.nodes_of(block);
     for (int l = 0; l < lanes; ++l) {

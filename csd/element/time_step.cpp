@@ -15,7 +15,7 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
     distortion_.resize(s.V0.size(), 1.0);
   }
   sum_.resize(s.m.size());
-  parallel_for(int64_t(sum_.size()), [&](int64_t n) { sum_[NodeId(n)] = 0; });
+  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
   const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
   for_blocks(el.blocks, [&](int block, int) {
     for_corners(lanes, [&](int a, int l) {
@@ -104,7 +104,7 @@ Worst worst_of(const State& s, const Field<double, SlotId>& distortion) {
 
 /// Exact; ties: lowest slot, whichever rank has it.
 Worst worst_of_all(const Comm& comm, Worst w) {
-  for (const Worst& b : comm.gather_all(std::vector{w})) {
+  for (const Worst& b : comm.gather_one(w)) {
     if (b.omega2 > w.omega2 || (b.omega2 == w.omega2 && b.limiting < w.limiting)) w.limiting = b.limiting;
     w.omega2 = std::fmax(w.omega2, b.omega2);
     if (b.inverted.valid() && !(w.inverted.valid() && w.inverted < b.inverted)) w.inverted = b.inverted;

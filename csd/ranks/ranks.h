@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// csd on several ranks. Every rank knows the whole mesh, makes the same cracks, and holds all nodal fields; it computes
-// the elements of its own blocks only, and their history is nowhere else.
+// csd on several ranks. Every rank knows the whole mesh and makes the same cracks; it computes the elements of its own
+// blocks only, and their history is nowhere else. Nodal fields have their full length on every rank, but a rank follows
+// only the nodes of its own elements, and those that the model needs everywhere (loads, conditions: follow()); the
+// others are brought up to date on request (complete()).
 //
-// Bit-equal to one rank: a node of one rank's elements alone is summed there, as ever. Of the others, the border nodes,
-// each element's addend travels, and all ranks add them in the order in which one rank adds. Which nodes are border
-// nodes is found out once, from the uncracked mesh: cracks only remove sharing, and a child is what its parent was.
+// Bit-equal to one rank: a node of one rank's elements alone is summed there, as ever. At the others, the border nodes,
+// each element's addend travels, and the ranks that touch the node add them all in the order in which one rank adds.
+// Which nodes are border nodes is found out once, from the uncracked mesh: cracks only remove sharing, and a child is
+// what its parent was.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -18,18 +21,29 @@
 
 namespace bw::csd {
 
+struct State;
+
 class Ranks {
  public:
-  /// Divides the blocks among the ranks of comm: `blocks` becomes this rank's. Collective, as everything here.
+  /// Divides the blocks among the ranks of comm: `blocks` becomes this rank's. All nodes are followed. Collective, as
+  /// everything here.
   Ranks(const Comm& comm, const Mesh& mesh, Blocks& blocks);
 
   const Comm& comm() const { return comm_; }
   /// For the log: "2 ranks (7680 + 7680 elements, 289 nodes between them) of ".
   std::string shares() const;
-  /// From the sums over this rank's elements (for_coloured_blocks) to those over all, on all ranks.
-  void sum(const Blocks& blocks, Field<Vec3, NodeId>& f);
-  void sum(const Blocks& blocks, Field<double, NodeId>& a);
 
+  // --- in each step
+  /// From the sums over this rank's elements (for_coloured_blocks) to those over all, at the nodes of its own elements.
+  void sum(const Blocks& blocks, Field<double, NodeId>& a);
+  /// The same at all nodes that it follows.
+  void sum(const Blocks& blocks, Field<Vec3, NodeId>& f);
+
+  // --- on request
+  /// x, v, f at all nodes.
+  void complete(State& s) const;
+  /// x at the nodes of these elements, which are the same on all ranks.
+  void complete_positions(const Mesh& mesh, const std::vector<char>& is_asked, State& s) const;
   /// [element] own elements' values are here, all are afterwards. T holds doubles.
   template <class T>
   void complete(std::vector<T>& of_elements) const {
@@ -47,32 +61,38 @@ class Ranks {
     return comm_.gather_all(blocks.is_own(e) ? std::vector{value} : std::vector<T>{})[0];
   }
 
+  // --- nodes
+  /// From now on s follows this rank's nodes and those marked [node], which are the same on all ranks; s is complete.
+  void follow(const std::vector<char>& is_needed_everywhere, State& s);
+  void follow_all(State& s) { follow(std::vector<char>(home_.size(), 1), s); }
   /// Nodes were split.
-  void append_copies(std::span<const NodeSplit> splits);
+  void append_copies(std::span<const NodeSplit> splits, State& s);
 
  private:
   using Lists = std::vector<std::vector<int32_t>>;  // [rank]
   struct Addend {                                   // at a corner of a border node
     int32_t corner;                                 // index into Blocks::node
-    int32_t rank, place;                            // whose, and where in its part of a buffer
+    int32_t rank, place;                            // whose; among this rank's own, or among those received
   };
   template <class T>
   struct Buffer {
-    std::vector<T> mine;  // addends at border nodes, filled by loops over blocks
-    std::vector<T> all;   // of each rank its addends, then its sums at inner nodes
+    std::vector<T> mine;                       // addends at border nodes, filled by loops over blocks
+    std::vector<std::vector<double>> out, in;  // [rank]
   };
 
   void divide(const Mesh& mesh, Blocks& blocks, const std::vector<int32_t>& rank);
   void find_border(const Mesh& mesh, Blocks& blocks, const std::vector<int32_t>& rank);
   void complete(const Lists& lists, double* values, size_t width) const;
   template <class T>
-  void sum(const Blocks& blocks, Buffer<T>& buffer, Field<T, NodeId>& a);
+  void add_border(const Blocks& blocks, Buffer<T>& buffer, Field<T, NodeId>& a);
 
   Comm comm_;
-  Lists elements_, blocks_, inner_;  // inner_: nodes of one rank's elements
-  std::vector<int32_t> home_;        // [node] rank whose inner node it is; -1: none's
-  std::vector<int> addends_of_;      // [rank] their number
-  Csr<Addend> addends_;              // [border node of the uncracked mesh] in the order of one rank
+  Lists elements_, blocks_;
+  std::vector<int32_t> home_;                  // [node] the lowest rank that has an element of it
+  std::vector<char> is_mine_, is_everywhere_;  // [node] this rank has an element of it; all ranks follow it
+  Lists everywhere_, elsewhere_;               // nodes, by home: that all ranks follow, or not
+  Lists send_;                                 // own addends for each rank
+  Csr<Addend> addends_;                        // [border node of this rank] in the order of one rank
   Buffer<Vec3> vectors_;
   Buffer<double> numbers_;
 };

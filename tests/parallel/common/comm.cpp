@@ -43,6 +43,34 @@ TEST(Comm, gathers_lists_of_different_length) {
   EXPECT_EQ(c.gather_all(mine), expected);
 }
 
+TEST(Comm, completes_what_each_rank_knows) {
+  const Comm& c = world();
+  std::vector<int> start{0};  // rank r knows r numbers
+  for (int r = 0; r < c.size(); ++r) start.push_back(start.back() + r);
+  std::vector<double> all(size_t(start.back()), -1), expected;
+  for (int i = 0; i < start.back(); ++i) expected.push_back(uniform01(3, uint64_t(i)));
+  for (int i = start[size_t(c.rank())]; i < start[size_t(c.rank()) + 1]; ++i) all[size_t(i)] = expected[size_t(i)];
+  c.complete(all, start);
+  EXPECT_EQ(all, expected);
+  std::vector<int> ranks;
+  for (int r = 0; r < c.size(); ++r) ranks.push_back(10 * r);
+  EXPECT_EQ(c.gather_one(10 * c.rank()), ranks);
+}
+
+TEST(Comm, exchanges_in_pairs) {
+  const Comm& c = world();
+  const int me = c.rank();
+  std::vector<std::vector<double>> send(size_t(c.size())), receive(size_t(c.size()));
+  for (int r = 0; r < c.size(); ++r)
+    if (r != me) {  // to the right neighbour nothing
+      send[size_t(r)].assign(r == me + 1 ? 0 : size_t(me + 1), 100 * me + r);
+      receive[size_t(r)].resize(me == r + 1 ? 0 : size_t(r + 1));
+    }
+  c.exchange(send, receive);
+  for (int r = 0; r < c.size(); ++r)
+    for (const double value : receive[size_t(r)]) EXPECT_EQ(value, 100 * r + me);
+}
+
 TEST(Comm, errors_have_text) {
   try {
     check_mpi(MPI_Send(nullptr, 1, MPI_INT, 99, 0, MPI_COMM_WORLD), "MPI_Send");
