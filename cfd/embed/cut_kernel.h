@@ -31,9 +31,8 @@ class CutKernel {
   /// A wall pressure above this share of the next cell's means a shock between them: the cell's own state goes to the
   /// wall. A line across the shock would make gas of wrong entropy, which stays at the wall.
   static constexpr double shock_ratio = 1.5;
-  /// Cosine between the walls of a cell below which it is a pocket: no line is drawn there, and the wall stands along
-  /// the cell's face and lets nothing through. Links cut by walls that disagree would each pass what the other should
-  /// stop, and lines prolonged through both feed each other: gas at rest in a corner blew up.
+  /// Cosine between the walls around a cell below which it is a pocket: there its mirror image stands beyond each wall,
+  /// at first order. Lines prolonged through walls that disagree feed each other: gas at rest in a corner blew up.
   static constexpr double pocket_cosine = 0.8;
   using Flow = typename Eos::Flow;
   using Gas = WallGas<Eos>;
@@ -276,20 +275,27 @@ class CutKernel {
     const double shift = std::clamp(0.5 * dt_ * dot(w.v, w.n) / (towards * shape_.h[d]), -0.5, 0.5);
     const double s = std::max(w.s + shift, 0.0);
     const Predicted& own = predicted(x);
-    double inner[n], beyond[n];
-    for (int q = 0; q < n; ++q) inner[q] = own.half[size_t(q)] + 0.5 * out * own.slope[d][q];
-    const double share = own.pocket ? 0 : std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
-    const State at_wall = on_slope(own.half, own, d, out * share * s);
-    typename Gas::AtWall star = gas_->at_wall(at_wall, w.n, w.v);
-    State face = on_slope(star.w, own, d, out * share * (0.5 - s));
-    if (own.pocket || star.w[Gas::p] > shock_ratio * read(moved(x, d, side ? -1 : 1))[Gas::p]) {
-      Vec3 normal = w.n;
-      if (own.pocket) normal = Vec3{}, normal[d] = -out;
-      star = gas_->at_wall(own.half, normal, w.v);
-      face = star.w;
+    const Sound<double> in = sound(x);
+    Sound<double> wall = in;
+    State face = own.half;
+    if (own.pocket) {
+      const Vec3 back = -2 * dot(Gas::velocity(face) - w.v, w.n) * w.n;
+      for (int e = 0; e < 3; ++e) face[size_t(Gas::v + e)] += back[e];
+    } else {
+      const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
+      typename Gas::AtWall star = gas_->at_wall(on_slope(own.half, own, d, out * share * s), w.n, w.v);
+      face = on_slope(star.w, own, d, out * share * (0.5 - s));
+      if (star.w[Gas::p] > shock_ratio * read(moved(x, d, side ? -1 : 1))[Gas::p]) {
+        star = gas_->at_wall(own.half, w.n, w.v);
+        face = star.w;
+      }
+      wall = {std::sqrt(star.rho_c2 / Gas::rho(star.w)), Gas::rho(star.w)};
     }
-    for (int q = 0; q < n; ++q) beyond[q] = face[size_t(q)];
-    const Sound<double> in = sound(x), wall{std::sqrt(star.rho_c2 / Gas::rho(star.w)), Gas::rho(star.w)};
+    double inner[n], beyond[n];
+    for (size_t q = 0; q < size_t(n); ++q) {
+      inner[q] = own.half[q] + 0.5 * out * own.slope[d][q];
+      beyond[q] = face[q];
+    }
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = out * shape_.cell_volume();
