@@ -84,23 +84,24 @@ template <class M, class Mean>
   return work;
 }
 
-/// Where the mean stress comes from: U' alone, the usual case; or anything that MeanStress describes.
+/// Where the mean stress comes from, the usual cases: U', or a field.
 struct Plain {
   static constexpr bool viscous = false;
+  const Field<double, SlotId>* given;
   template <class M>
-  Pack operator()(const M& m, SlotId, Pack J_bar, Pack, Viscous&) const {
-    return m.volumetric.mean_stress(J_bar);
+  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack, Viscous&) const {
+    return given ? Pack::load(&(*given)[slot]) : m.volumetric.mean_stress(J_bar);
   }
 };
-struct General {
+/// The same with bulk viscosity.
+struct WithViscosity {
   static constexpr bool viscous = true;
   const MeanStress& how;
   const Field<double, SlotId>& volume_before;
   template <class M>
   Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack V0, Viscous& q) const {
-    const Pack sigma = how.given ? Pack::load(&(*how.given)[slot]) : m.volumetric.mean_stress(J_bar);
-    if (how.viscosity.on() && how.dt > 0)
-      q = viscous_stress(how.viscosity, m, V0, J_bar * V0, Pack::load(&volume_before[slot]), how.dt);
+    const Pack sigma = Plain{how.given}(m, slot, J_bar, V0, q);
+    if (how.dt > 0) q = viscous_stress(how.viscosity, m, V0, J_bar * V0, Pack::load(&volume_before[slot]), how.dt);
     return sigma + q.stress;
   }
 };
@@ -129,8 +130,8 @@ double all_forces(const Elements& el, const Mean& mean_of, double dt, State& s) 
 
 double internal_force(const Elements& el, const MeanStress& how, State& s) {
   s.for_nodes([&](NodeId n) { s.f[n] = {}; });
-  if (!how.given && !how.viscosity.on()) return all_forces(el, Plain{}, how.dt, s);
-  return all_forces(el, General{how, s.volume}, how.dt, s);
+  if (!how.viscosity.on()) return all_forces(el, Plain{how.given}, how.dt, s);
+  return all_forces(el, WithViscosity{how, s.volume}, how.dt, s);
 }
 
 namespace {

@@ -57,9 +57,10 @@ PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const S
 }
 
 void PressureFilter::renew(const Elements& el, const State& s) {
-  weight_.resize(s.x.size());
+  share_.resize(s.x.size());
   sum_.resize(s.x.size());
-  nodal_sums(el, s, s.V0, weight_);
+  nodal_sums(el, s, s.V0, sum_);
+  parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
 }
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
@@ -69,14 +70,12 @@ void PressureFilter::average(const Elements& el, const State& s, const Field<dou
       out[slot] = s.V0[slot] * a[slot];
   });
   nodal_sums(el, s, out, sum_);
+  s.for_nodes([&](NodeId n) { sum_[n] *= share_[n]; });
   for_blocks(el.blocks, [&](int block, int) {
     const int32_t* nodes = el.blocks.nodes_of(block);
     for (int l = 0; l < lanes; ++l) {
-      double mean = 0;
-      for (int c = 0; c < 8; ++c) {
-        const NodeId n(nodes[c * lanes + l]);
-        mean += 0.125 * (sum_[n] / weight_[n]);
-      }
+      const auto at = [&](int c) { return sum_[NodeId(nodes[c * lanes + l])]; };
+      const double mean = ((at(0) + at(1)) + (at(2) + at(3))) + ((at(4) + at(5)) + (at(6) + at(7)));
       const SlotId slot(block * lanes + l);
       out[slot] = (1 - strength) * a[slot] + strength * mean;
     }

@@ -49,7 +49,8 @@ class PressureFilter {
 
   bool self_adjoint_;
   double strength_;
-  Field<double, NodeId> weight_, sum_;  // m^3 of the elements of a node; work space
+  Field<double, NodeId> share_;  // 1/m^3: an eighth over the volume of a node's elements
+  Field<double, NodeId> sum_;    // work space
   Field<double, SlotId> J_, theta_, stress_, sigma_;
   Field<double, SlotId> change_, volume_;  // plain: sigma_m - U' and volume of the last call
   double work_ = 0;

@@ -55,18 +55,33 @@ template <class M>
   }
 }
 
-bool has_collapsed(const State& s, int block) {
-  for (int l = 0; l < lanes; ++l)
-    if (s.collapsed[SlotId(block * lanes + l)] > 0) return true;
-  return false;
+/// Of the elements of a block.
+struct BlockState {
+  double omega2 = 0;  ///< largest bound
+  bool inverted = false, collapsed = false;
+};
+BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int block) {
+  Pack omega2(0), volume(1), collapsed(0);
+  for (int l = 0; l < lanes; l += Pack::size) {
+    const SlotId slot(block * lanes + l);
+    omega2 = max(Pack::load(&s.omega2[slot]) * Pack::load(&distortion[slot]), omega2);  // not a number: not taken
+    volume = select(Pack::load(&s.volume[slot]) > Pack(0), volume, Pack(0));
+    collapsed = max(Pack::load(&s.collapsed[slot]), collapsed);
+  }
+  BlockState r{0, any(volume <= Pack(0)), any(collapsed > Pack(0))};
+  for (int i = 0; i < Pack::size; ++i) r.omega2 = omega2[i] > r.omega2 ? omega2[i] : r.omega2;
+  return r;
 }
 
 }  // namespace
 
-void TimeStep::refresh(const Elements& el, const State& s, bool whole) {
-  if (whole) share_masses(el, s);
+void TimeStep::refresh(const Elements& el, const State& s, Which which) {
+  if (which == Which::all) share_masses(el, s);
   for_blocks(el.blocks, [&](int block, int body) {
-    if (!whole && !has_collapsed(s, block)) return;
+    if (which != Which::all) {
+      const BlockState now = state_of(s, distortion_, block);
+      if (!now.collapsed && (which == Which::collapsed || now.omega2 < stiff_part * omega2_)) return;
+    }
     std::visit(
         [&]<class M>(const M& material) {
           const size_t in_body = size_t(el.blocks.row_of(body, block));
@@ -75,9 +90,6 @@ void TimeStep::refresh(const Elements& el, const State& s, bool whole) {
         },
         el.materials[size_t(body)]);
   });
-  if (!whole) return;
-  refreshed_at_ = s.step;
-  stale_ = false;
 }
 
 namespace {
@@ -87,19 +99,32 @@ struct Worst {
   SlotId limiting, inverted;
   bool collapsed = false;
 };
-Worst worse(const Worst& a, const Worst& b) {  // a comes first: it wins ties
-  return {std::fmax(a.omega2, b.omega2), b.omega2 > a.omega2 ? b.limiting : a.limiting,
-          a.inverted.valid() ? a.inverted : b.inverted, a.collapsed || b.collapsed};
-}
-Worst worst_of(const State& s, const Field<double, SlotId>& distortion) {
-  return parallel_reduce(
-      int64_t(distortion.size()), Worst{},
+Worst worst_of(const Elements& el, const State& s, const Field<double, SlotId>& distortion) {
+  struct Blocks {
+    BlockState state;
+    int limiting = -1, inverted = -1;
+  };
+  const Blocks b = parallel_reduce(
+      el.blocks.block_count(), Blocks{},
       [&](int64_t i) {
-        const SlotId slot(i);
-        return Worst{s.omega2[slot] * distortion[slot], slot, s.volume[slot] > 0 ? SlotId() : slot,
-                     s.collapsed[slot] > 0};
+        const BlockState now = state_of(s, distortion, int(i));
+        return Blocks{now, int(i), now.inverted ? int(i) : -1};
       },
-      worse);
+      [](const Blocks& a, const Blocks& b) {  // a comes first: it wins ties
+        const bool worse = b.state.omega2 > a.state.omega2;
+        return Blocks{{worse ? b.state.omega2 : a.state.omega2, false, a.state.collapsed || b.state.collapsed},
+                      worse ? b.limiting : a.limiting,
+                      a.inverted >= 0 ? a.inverted : b.inverted};
+      });
+  Worst w{b.state.omega2, {}, {}, b.state.collapsed};
+  const auto first = [&](int block, const auto& is_it) {
+    for (SlotId slot(block * lanes); block >= 0 && slot < (block + 1) * lanes; slot = SlotId(slot + 1))
+      if (is_it(slot)) return slot;
+    return SlotId();
+  };
+  w.limiting = first(b.limiting, [&](SlotId i) { return s.omega2[i] * distortion[i] == w.omega2; });
+  w.inverted = first(b.inverted, [&](SlotId i) { return !(s.volume[i] > 0); });
+  return w;
 }
 
 /// Exact; ties: lowest slot, whichever rank has it.
@@ -116,15 +141,22 @@ Worst worst_of_all(const Comm& comm, Worst w) {
 
 double TimeStep::stable(const Elements& el, const State& s) {
   const bool due = stale_ || s.step - refreshed_at_ >= refresh_steps;
-  if (due) refresh(el, s, true);
-  Worst w = worst_of(s, distortion_);
+  if (due) {
+    const bool all = stale_ || refreshes_ < settling || refreshes_ % whole_refresh == 0;
+    refresh(el, s, all ? Which::all : Which::stiff);
+    refreshes_ = stale_ ? 1 : refreshes_ + 1;
+    refreshed_at_ = s.step;
+    stale_ = false;
+  }
+  Worst w = worst_of(el, s, distortion_);
   if (w.collapsed && !due) {  // the centroid doesn't see a collapsing point: such elements are evaluated in every step
-    refresh(el, s, false);
-    w = worst_of(s, distortion_);
+    refresh(el, s, Which::collapsed);
+    w = worst_of(el, s, distortion_);
   }
   if (el.ranks) w = worst_of_all(el.ranks->comm(), w);
   limiting_ = w.limiting;
   inverted_ = w.inverted.valid() ? std::optional(w.inverted) : std::nullopt;
+  omega2_ = w.omega2;
   return 2 / std::sqrt(w.omega2);
 }
 

@@ -12,7 +12,8 @@ namespace bw::csd {
 /// that stiff elements borrow from soft neighbours and the bound comes down to what the assembled model allows. The
 /// bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
 /// each element's is scaled by its centroid part, which follows all of its change of size and shape but distortion.
-/// Elements with a collapsed point (q1p0.h) are evaluated in every step.
+/// Elements with a collapsed point (q1p0.h) are evaluated in every step. Once the masses have settled, three of four
+/// refreshes leave them as they are and pass over blocks far from limiting the step.
 class TimeStep {
  public:
   /// s. Needs the results of internal_force at s.x.
@@ -25,15 +26,18 @@ class TimeStep {
   /// The topology or the masses have changed.
   void renew() { stale_ = true; }
   static constexpr int refresh_steps = 24;
+  static constexpr int settling = 8, whole_refresh = 4;  ///< refreshes: of all at first; then of all once in
+  static constexpr double stiff_part = 0.25;             ///< of the largest omega^2: others are passed over
 
  private:
   void share_masses(const Elements& elements, const State& s);
-  /// whole: all elements, with new shares of mass; otherwise blocks with collapsed points.
-  void refresh(const Elements& elements, const State& s, bool whole);
+  enum class Which { all, stiff, collapsed };  // all: with new shares of mass
+  void refresh(const Elements& elements, const State& s, Which which);
   Aligned<double> mass_;              // [block][8][lanes] kg, M_e
   Field<double, NodeId> sum_;         // work space
   Field<double, SlotId> distortion_;  // bound / centroid part
-  int64_t refreshed_at_ = 0;
+  int64_t refreshed_at_ = 0, refreshes_ = 0;
+  double omega2_ = 0;  // of the last call
   bool stale_ = true;
   SlotId limiting_;
   std::optional<SlotId> inverted_;

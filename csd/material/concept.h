@@ -15,7 +15,8 @@ namespace bw::csd {
 ///   M::plastic         whether component 6 is eqps
 ///   yields(iso, dev2, history)  of plastic ones: lanes whose trial (point.h) is beyond the yield surface
 ///   respond(trial, history, per_dt)  where a lane yields, the end of the step; commits the model's own history (from
-///                      component 6 on) but not A. per_dt [1/s]: one over the step; 0: no time passes, nothing has a rate
+///                      component 6 on) but not A. per_dt [1/s]: one over the step; 0: no time passes, nothing has a
+///                      rate
 ///   plastic_work(history)  J/m^3 of reference volume spent since the start
 ///   temperature(history)   K, of plastic materials
 template <class M>

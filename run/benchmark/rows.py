@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 from verification import fluid, reference, solid
-from verification.case import BUILD, ROOT, RunFailed, output, run
+from verification.case import BUILD, ROOT, WORK, RunFailed, output, run
 
 sys.path.insert(0, str(ROOT / "run"))
 import fields  # noqa: E402
@@ -56,25 +56,62 @@ def solid_rows(name, text):
     return result, last
 
 
-BAR = ("[time]\nend = \"80 us\"\nmax_steps = {steps}\n" + output("0 s", "1 us")
-       + '[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = 8, along = 80}}\n'
-       + 'velocity = [0.0, 0.0, "-227 m/s"]\n' + solid.COPPER.replace("{", "{{").replace("}", "}}")
-       + '[[solid.condition]]\nkind = "roller"\nnodes = "lower"\nnormal = [0.0, 0.0, 1.0]\n'
-       + '[solid.filter]\nkind = "{filter}"\n')
+def bar(steps, material=solid.COPPER, filter="off", across=8, along=80, extra=""):
+    """The bar of S7, 15,360 elements; its foot keeps to the wall."""
+    return (f"[time]\nend = \"80 us\"\nmax_steps = {steps}\n" + output("0 s", "1 us")
+            + f'[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = {across}, along = {along}}}\n'
+            + 'velocity = [0.0, 0.0, "-227 m/s"]\n' + material + '[[solid.condition]]\nkind = "roller"\nnodes = "lower"\nnormal = [0.0, 0.0, 1.0]\n'
+            + f'[solid.filter]\nkind = "{filter}"\n' + extra)
+
+
+JOHNSON_COOK = 'material = {library = "copper OFHC"}\n'
+# a hex with eight points: Jacobians, volume, step bound, forces 530; a point: cofactors 32, det A 14, root 29, J A 45, b 30, deviator 19, yield 14, force 36
+ELASTIC_FLOP = 2300
+
+
+def share_of_peak(name, rows):
+    """Elastic operations alone over the machine's fused multiply-adds: a lower bound where there is flow."""
+    return [row(f"{name}_share_of_peak", r["value"] * 1e-3 * ELASTIC_FLOP / MACHINE["fma_peak_1"], "of FMA peak") for r in rows if r["threads"] == 1]
 
 
 def taylor_j2():
-    """Taylor bar of S7, J2, no filter; and with the self-adjoint filter"""
-    result, _ = solid_rows("taylor_j2", BAR.format(steps=2000, filter="off"))
-    filtered, _ = solid_rows("taylor_j2_filter", BAR.format(steps=2000, filter="self_adjoint"))
-    return result + filtered
+    """Taylor bar of S7, J2, no filter; with the self-adjoint filter; two threads over two pinned copies with one"""
+    result, _ = solid_rows("taylor_j2", bar(2000))
+    filtered, _ = solid_rows("taylor_j2_filter", bar(2000, filter="self_adjoint"))
+    return result + share_of_peak("taylor_j2", result) + filtered + copies(bar(2000))
+
+
+def copies(text):
+    """As many copies as cores, each on its own core with one thread, at the same time; and all threads in one run just after."""
+    if CORES < 2:
+        return []
+    folders, running = [], []
+    environment = os.environ | dict(item.split("=", 1) for item in subprocess.run(
+        [str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
+    for core in sorted(os.sched_getaffinity(0)):
+        work = WORK / f"bench_copy_{core}"
+        work.mkdir(parents=True, exist_ok=True)
+        (work / "case.toml").write_text(text)
+        folders.append(work / "out")
+        running.append(subprocess.Popen([str(BUILD / "bin" / "csd"), "case.toml", "--threads", "1"], cwd=work, env=environment,
+                                        preexec_fn=lambda core=core: os.sched_setaffinity(0, {core}), stdout=subprocess.DEVNULL))
+    if any(process.wait() for process in running):
+        raise RunFailed("a copy failed")
+    both = sum(rate(folder, "solid", "element") for folder in folders)
+    threads = rate(run("bench_copies_threads", text, threads=CORES, only="solid").directory, "solid", "element")
+    return [row("taylor_j2_copies", both, "M element-steps/s", CORES), row("taylor_j2_threads_over_copies", threads / both, "ratio", CORES)]
+
+
+def taylor_jc():
+    """The same bar, Johnson-Cook (OFHC copper), rate, temperature and heating"""
+    return solid_rows("taylor_jc", bar(2000, JOHNSON_COOK))[0]
 
 
 def taylor_seconds():
     """The whole bar to 80 us, wall seconds"""
     result = []
     for threads in THREADS:
-        done = run(f"bench_taylor_seconds_{threads}", BAR.format(steps=0, filter="off"), threads=threads, only="solid")
+        done = run(f"bench_taylor_seconds_{threads}", bar(0), threads=threads, only="solid")
         result.append(row("taylor_seconds", fields.summary(done.directory, "solid")["wall_seconds"], "s", threads))
     return result
 
@@ -89,15 +126,15 @@ def block(steps, material, velocity):
 def block_elastic():
     """A block of 512,000 elements, elastic"""
     elastic = 'material = {kind = "neo_hooke", density = "8930 kg/m^3", young_modulus = "117 GPa", poisson_ratio = 0.35}\n'
-    result, last = solid_rows("block_elastic", block(60, elastic, [0.0, 0.0, -1.0]))
-    return result
+    result, _ = solid_rows("block_elastic", block(60, elastic, [0.0, 0.0, -1.0]))
+    return result + share_of_peak("block_elastic", result)
 
 
 def block_j2():
     """The same block, J2; bytes an element"""
     result, last = solid_rows("block_j2", block(60, solid.COPPER, [0.0, 0.0, -100.0]))
     summary = fields.summary(last.directory, "solid")
-    return result + [row("bytes_per_element", summary["peak_memory_bytes"] / 512000, "B (whole process)", THREADS[-1])]
+    return result + [row("bytes_per_element", summary["peak_memory_bytes"] / 512000, "B, peak of the process", THREADS[-1])]
 
 
 # --- fluid ------------------------------------------------------------------------------------------------------------------------------
@@ -208,5 +245,5 @@ def exchange_200k_ms():
     return [row("exchange_200k_ms", values["full_ms"], "ms", 1, 2), row("exchange_200k_geometry_ms", values["geometry_ms"], "ms", 1, 2)]
 
 
-GROUPS = {"solid": [taylor_j2, taylor_seconds, block_elastic, block_j2], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
+GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
           "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": []}
