@@ -108,6 +108,7 @@ std::string Ranks::shares() const {
 
 template <class T>
 void Ranks::add_border(const Blocks& blocks, Buffer<T>& buffer, Field<T, NodeId>& a) {
+  const Timed timed("exchange");
   constexpr size_t width = sizeof(T) / sizeof(double);
   const auto at = [](std::vector<double>& part, size_t i) -> T& { return reinterpret_cast<T*>(part.data())[i]; };
   for (size_t r = 0; r < send_.size(); ++r)
@@ -122,13 +123,9 @@ void Ranks::add_border(const Blocks& blocks, Buffer<T>& buffer, Field<T, NodeId>
   std::fill(buffer.mine.begin(), buffer.mine.end(), T{});  // a block that is left out next time adds nothing
 }
 
-void Ranks::sum(const Blocks& blocks, Field<double, NodeId>& a) {
-  const Timed timed("exchange");
-  add_border(blocks, numbers_, a);
-}
+void Ranks::sum(const Blocks& blocks, Field<double, NodeId>& a) { add_border(blocks, numbers_, a); }
 
 void Ranks::sum(const Blocks& blocks, Field<Vec3, NodeId>& f) {
-  const Timed timed("exchange");
   add_border(blocks, vectors_, f);
   complete(everywhere_, &f.data()->x, 3);
 }

@@ -138,6 +138,24 @@ def block_j2():
 
 
 # --- fluid ------------------------------------------------------------------------------------------------------------------------------
+def ranks():
+    """Ranks of one thread each, the bits of one rank: Taylor bar and a block of 64,000; share of exchange and waiting; memory of the first rank"""
+    result = []
+    cube_64k = ('[time]\nend = "1 s"\nmax_steps = 200\n' + output("0 s", "1 s")
+                + '[[solid.body]]\nname = "block"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["40 mm", "40 mm", "40 mm"], cells = [40, 40, 40]}\n'
+                + 'velocity = [0.0, 0.0, "-100 m/s"]\n' + solid.COPPER
+                + '[[solid.condition]]\nkind = "roller"\nnodes = "z_lower"\nnormal = [0.0, 0.0, 1.0]\n')
+    for name, text in (("taylor", BAR.format(steps=1000, filter="off")), ("taylor_filter", BAR.format(steps=1000, filter="self_adjoint")), ("block_64k", cube_64k)):
+        for n in THREADS:
+            done = run(f"bench_ranks_{name}_{n}", text, ranks=str(n), threads=1, only="solid")
+            summary = fields.summary(done.directory, "solid")
+            result.append(row(f"ranks_{name}", rate(done.directory, "solid", "element"), "M element-steps/s", 1, n))
+            result.append(row(f"ranks_{name}_memory", summary["peak_memory_bytes"] / 2**20, "MiB", 1, n))
+            if n > 1:
+                result.append(row(f"ranks_{name}_exchange", 100 * summary["values"]["exchange_share"], "%", 1, n))
+    return result
+
+
 def cube(n, steps, materials, regions):
     return (f"[time]\nend = \"1 s\"\nmax_steps = {steps}\n" + output("0 s", "1 s")
             + f"[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [{n}, {n}, {n}]\n" + materials + regions)
@@ -245,5 +263,5 @@ def exchange_200k_ms():
     return [row("exchange_200k_ms", values["full_ms"], "ms", 1, 2), row("exchange_200k_geometry_ms", values["geometry_ms"], "ms", 1, 2)]
 
 
-GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
+GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
           "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": []}
