@@ -46,6 +46,8 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   Physics ph;
   ph.elements = std::move(elements);
   ph.viscosity = cs.viscosity;
+  ph.resting.skip = cs.skip_resting;
+  ph.resting.start(ph.elements.blocks.block_count());
   if (cs.filter.kind != "off") ph.filter.emplace(cs.filter, ph.elements, s);
   if (!cs.loads.empty()) {
     std::vector<LoadKind> kinds;

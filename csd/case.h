@@ -94,7 +94,7 @@ struct WetCase {
 /// [solid]
 struct SolidCase {
   int threads = 0;
-  bool renumber = true;
+  bool renumber = true, skip_resting = true;
   std::vector<BodyCase> bodies;
   FilterCase filter;
   ViscosityCase viscosity;
@@ -109,6 +109,8 @@ struct SolidCase {
     k.optional("threads", threads, "threads of csd; 0: OMP_NUM_THREADS or what the machine gives");
     k.optional("renumber", renumber,
                "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
+    k.optional("skip_resting", skip_resting,
+               "pass over elements that no wave has reached (faster; the same results)");
     k.tables("body", bodies, "a body: mesh, material, initial motion");
     k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
     k.table("filter", filter, "pressure filter");

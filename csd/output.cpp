@@ -224,6 +224,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.counts = {{"elements", double(m.mesh.elem_count())},
                 {"nodes", double(m.mesh.node_count())},
                 {"collapsed_elements", collapsed_}};
+  if (m.physics.resting.skips) sum.counts.emplace_back("skipped_blocks", double(m.physics.resting.skips));
   if (m.physics.cracks) {
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));

@@ -18,6 +18,7 @@ struct Physics {
   Elements elements;
   TimeStep time_step;
   BulkViscosity viscosity;
+  Resting resting;
   std::optional<PressureFilter> filter;
   std::optional<Loads> loads;
   std::vector<ConditionKind> conditions;

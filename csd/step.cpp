@@ -11,8 +11,9 @@ void sum_forces(Model& m, double t, double dt) {
   auto& [mesh, topology, s, ph] = m;
   MeanStress mean{.viscosity = ph.viscosity, .dt = dt};
   if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);  // sec. 2.1
-  ph.energy.viscosity += internal_force(ph.elements, mean, s);     // eqs (1)-(13), (15)
-  if (ph.loads) ph.loads->add(mesh, t, s);                         // eqs (15), (18)
+  const Reference reference{mesh.X, ph.resting};
+  ph.energy.viscosity += internal_force(ph.elements, mean, s, &reference);  // eqs (1)-(13), (15)
+  if (ph.loads) ph.loads->add(mesh, t, s);                                  // eqs (15), (18)
 }
 
 void on_force(Model& m, double dt) {

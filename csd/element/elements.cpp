@@ -48,10 +48,10 @@ Pack damped_omega2(Pack omega2, Pack beta) {
   return omega2 * grown * grown;
 }
 
-/// Forces of one block; returns the work spent in viscosity.
+/// Forces of one block, none if it rests; returns the work spent in viscosity.
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
-                                    double per_dt, State& s) {
+                                    double per_dt, bool rests, State& s) {
   double* history = history_of<M>(s, el, body, block);
   const int32_t* nodes = el.blocks.nodes_of(block);
   const int used = el.blocks.used[size_t(block)];
@@ -61,8 +61,9 @@ template <class M, class Mean>
     const Corners<Pack> x = gather(s.x.data(), nodes + l);
     const Pack V0 = Pack::load(&s.V0[slot]);
     Viscous viscous{Pack(0), Pack(0)};
-    const auto r = internal_force<Pack>(
+    auto r = internal_force<Pack>(
         material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); }, per_dt);
+    if (rests) r.f = {};  // round-off
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
       scatter_border(r.f, nodes + l, places + l, count, s.f.data(), el.blocks.border.vectors);
@@ -106,15 +107,47 @@ struct WithViscosity {
   }
 };
 
+/// Nodes where they were made, and no stress from a filter that blocks beside it have fed.
+bool is_at_rest(const Elements& el, int block, int body, const MeanStress& how, const Field<Vec3, NodeId>& X,
+                const State& s) {
+  const int32_t* nodes = el.blocks.nodes_of(block);
+  for (int i = 0; i < 8 * lanes; ++i)
+    if (!(s.x[NodeId(nodes[i])] == X[NodeId(nodes[i])])) return false;
+  if (!how.given) return true;
+  const double noise = 1e-13 * std::visit([](const auto& m) { return m.volumetric.kappa; }, el.materials[size_t(body)]);
+  for (int l = 0; l < lanes; ++l)
+    if (!(std::abs((*how.given)[SlotId(block * lanes + l)]) <= noise)) return false;
+  return true;
+}
+/// Whether a block rests. Looked at first, it is computed all the same: its volume and its bound are to be known. One
+/// whose addends travel to other ranks is computed always.
+Resting::State look_at(const Elements& el, int block, int body, const MeanStress& how, const Reference& reference,
+                       const State& s) {
+  const Resting& resting = reference.resting;
+  const Resting::State before = resting.state[size_t(block)];
+  if (before == Resting::reached || !is_at_rest(el, block, body, how, reference.X, s)) return Resting::reached;
+  const bool can_skip = resting.skip && before != Resting::unseen && !el.blocks.border.of(block);
+  return can_skip ? Resting::skipped : Resting::computed;
+}
+
 /// Sum of the blocks' viscous work, in block order.
 template <class Mean>
-double all_forces(const Elements& el, const Mean& mean_of, double dt, State& s) {
+double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of, const Reference* reference,
+                  State& s) {
+  const double dt = how.dt;
   const double per_dt = dt > 0 ? 1 / dt : 0;
   std::vector<double> work(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
   for_coloured_blocks(el.blocks, [&](int block, int body) {
+    bool rests = false;
+    if (reference) {
+      const Resting::State now = look_at(el, block, body, how, *reference, s);
+      reference->resting.state[size_t(block)] = now;
+      if (now == Resting::skipped) return;
+      rests = now == Resting::computed;
+    }
     std::visit(
         [&](const auto& material) {
-          const double w = block_force(el, material, body, block, mean_of, per_dt, s);
+          const double w = block_force(el, material, body, block, mean_of, per_dt, rests, s);
           if constexpr (Mean::viscous) work[size_t(block)] = w;
         },
         el.materials[size_t(body)]);
@@ -128,10 +161,13 @@ double all_forces(const Elements& el, const Mean& mean_of, double dt, State& s) 
 
 }  // namespace
 
-double internal_force(const Elements& el, const MeanStress& how, State& s) {
+double internal_force(const Elements& el, const MeanStress& how, State& s, const Reference* reference) {
   s.for_nodes([&](NodeId n) { s.f[n] = {}; });
-  if (!how.viscosity.on()) return all_forces(el, Plain{how.given}, how.dt, s);
-  return all_forces(el, WithViscosity{how, s.volume}, how.dt, s);
+  if (reference && !reference->resting.any()) reference = nullptr;
+  const double work = how.viscosity.on() ? all_forces(el, how, WithViscosity{how, s.volume}, reference, s)
+                                         : all_forces(el, how, Plain{how.given}, reference, s);
+  if (reference) reference->resting.book();
+  return work;
 }
 
 namespace {

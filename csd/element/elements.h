@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "csd/element/blocks.h"
+#include "csd/element/resting.h"
 #include "csd/material/list.h"
 #include "csd/ranks/ranks.h"
 #include "csd/state.h"
@@ -66,8 +67,9 @@ struct MeanStress {
 void start(const Mesh& mesh, Elements& elements, State& s);
 
 /// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work spent in viscosity since the last
-/// call [J].
-double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s);
+/// call [J]. With a reference, blocks at rest bear no force.
+double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s,
+                      const Reference* reference = nullptr);
 
 /// Lumped mass of a node [kg]: its share of the elements given, which must ascend, so that it has one value.
 double node_mass(const Mesh& mesh, const Elements& elements, std::span<const ElemId> around, NodeId n);

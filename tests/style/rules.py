@@ -22,7 +22,7 @@ KERNELS = {"csd/material": {"csd/material"}, "csd/element": {"csd/element", "csd
            "cfd/eos": {"cfd/eos"}, "cfd/mix": {"cfd/mix", "cfd/eos"}, "cfd/scheme": {"cfd/scheme", "cfd/mix", "cfd/eos"}}
 # headers in those folders that run kernels over blocks, and are none themselves
 DRIVERS = {"csd/element/blocks.h", "csd/element/elements.h", "csd/element/lanes.h", "csd/element/filter.h", "csd/element/results.h",
-           "csd/element/time_step.h"}
+           "csd/element/resting.h", "csd/element/time_step.h"}
 PLAIN_DATA = {"cfd/amr/patch.h"}  # layouts without behaviour, which kernels may see too
 SOURCE = (".h", ".cpp")
 

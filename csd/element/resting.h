@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blocks that no wave has reached: their nodes stand where they were made, so they bear nothing. A block once reached
+// stays so, and a node moves only after a block beside it, a load or a condition has moved it: the region grows by
+// connectivity, a layer a step at most, as the scheme's own domain of dependence does.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "common/data/field.h"
+#include "common/math/tensor.h"
+
+namespace bw::csd {
+
+struct Resting {
+  enum State : char { unseen, computed, skipped, reached };
+  bool skip = true;          ///< false: such blocks are computed all the same, with the same result
+  std::vector<State> state;  ///< [block], of the last call; empty: all reached
+  int64_t skips = 0;         ///< blocks passed over, summed over the steps
+
+  /// Begins again: no block has been looked at.
+  void start(int blocks) { state.assign(size_t(blocks), unseen); }
+  bool any() const { return !state.empty(); }
+  /// After a call. When all are reached nothing is looked at any more.
+  void book() {
+    skips += std::count(state.begin(), state.end(), skipped);
+    if (std::count(state.begin(), state.end(), reached) == std::ptrdiff_t(state.size())) state.clear();
+  }
+};
+
+/// What is needed to know them.
+struct Reference {
+  const Field<Vec3, NodeId>& X;
+  Resting& resting;
+};
+
+}  // namespace bw::csd
