@@ -35,17 +35,18 @@ struct Medium {
   GasFlow gas[2]{};
 };
 
-/// Prim rows of one gas (flow.rho_row, v, p, c, rho_c2; the others are left alone). Returns p before the lift.
+/// GasPrim of one gas. Returns p before the lift.
 template <class T>
-T gas_to_primitive(const GasFlow& flow, const T (&U)[GasCons::count], T (&W)[GasPrim::count], T& c, T& rho_c2,
-                   const Floors& floors) {
+[[gnu::always_inline]] inline T gas_to_primitive(const GasFlow& flow, const T (&U)[GasCons::count],
+                                                 T (&W)[GasPrim::stored], const Floors& floors) {
   const T rho = max(U[GasCons::rho], T(floors.rho)), over_rho = T(1) / rho;
   const T vx = U[GasCons::mom] * over_rho, vy = U[GasCons::mom_y] * over_rho, vz = U[GasCons::mom_z] * over_rho;
   const T kinetic = T(0.5) * (U[GasCons::mom] * vx + U[GasCons::mom_y] * vy + U[GasCons::mom_z] * vz);
   const T over_G = T(1) / T(flow.over_G);
   const T p_raw = (U[GasCons::rhoE] - kinetic - T(flow.Pi)) * over_G, p = max(p_raw, T(floors.p));
-  rho_c2 = p * (T(1) + over_G) + T(flow.Pi) * over_G;
-  c = sqrt(rho_c2 * over_rho);
+  const T rho_c2 = p * (T(1) + over_G) + T(flow.Pi) * over_G;
+  W[GasPrim::c] = sqrt(rho_c2 * over_rho);
+  W[GasPrim::rho_c2] = rho_c2;
   W[GasPrim::rho] = U[GasCons::rho];
   W[GasPrim::v] = vx;
   W[GasPrim::v_y] = vy;

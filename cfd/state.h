@@ -49,8 +49,8 @@ class State {
         cells_(size_t(forest.shape().cells())),
         current_(size_t(forest.local_blocks()), 0) {
     const size_t n = size_t(forest.local_blocks()) * block_size();
-    for (auto& copy : copies_) copy.assign(n, 0.0);
-    ghosts_.assign(size_t(forest.ghost_blocks()) * block_size(), 0.0);
+    for (auto& copy : copies_) copy.assign(n + lanes, 0.0);  // packs may hang over the last row
+    ghosts_.assign(size_t(forest.ghost_blocks()) * block_size() + lanes, 0.0);
   }
   size_t block_size() const { return cells_ * Cons::count; }
   /// One variable of a block, [k][j][i]; blocks from local_blocks() on are copies of other ranks'.

@@ -30,6 +30,7 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
       setup_(setup),
       walls_(walls),
       result_(size_t(forest.local_blocks())),
+      gas_before_(size_t(forest.local_blocks()), 0),
       pending_(size_t(forest.local_blocks())),
       marks_(size_t(forest.local_blocks())),
       first_order_(size_t(forest.local_blocks())),
@@ -74,9 +75,9 @@ void Sweep::select(const State& s, double dt) {
     wall_[size_t(b)] = {};
     if (walls_) {
       const Index3 first = forest_.first_cell(b), n = forest_.shape().n;
-      near_[size_t(b)] = !walls_->near(first)                                                                      ? far
+      near_[size_t(b)] = !walls_->near(first)                                                                    ? far
                          : walls_->map().all_blocked(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]}) ? metal
-                                                                                                                   : near;
+                                                                                                                 : near;
       if (near_[size_t(b)] == near) active_.push_back(b);
       if (near_[size_t(b)] != far) continue;
     }
@@ -133,6 +134,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   else
     space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);
   if (near_[size_t(block)] == near) in.blocked = meet_walls(block, space);
+  in.others_hold = m != 0 && gas_before_[size_t(block)] == m;
   marks_[size_t(block)].clear();
   result_[size_t(block)] =
       update_block(in, patch, s.block(block), change, s.spare(block), marks_[size_t(block)], booked);
@@ -238,7 +240,8 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
       if (f.layer == layer && is_local(f.cell)) filled.push_back({f.cell, {}, false});
     parallel_for(int64_t(filled.size()), [&](int64_t i) {
       Filled& f = filled[size_t(i)];
-      f.found = cfd::refill(walls_->map(), f.cell, setup_.medium.mixture, setup_.medium.floors, read, f.U) && usable(setup_.medium, f.U);
+      f.found = cfd::refill(walls_->map(), f.cell, setup_.medium.mixture, setup_.medium.floors, read, f.U) &&
+                usable(setup_.medium, f.U);
     });
     for (const Filled& f : filled) {
       if (!f.found) continue;
@@ -249,6 +252,7 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
       }
       ++swept.fresh;
       touched.insert(at.block);
+      gas_before_[size_t(at.block)] = 0;
       note(f.U, s.info[size_t(at.block)]);
     }
     walls_->accept(layer);
@@ -330,6 +334,7 @@ void Sweep::commit(State& s) {
   for (int b : active_) {
     s.flip(b);
     s.info[size_t(b)] = result_[size_t(b)].info;
+    gas_before_[size_t(b)] = int8_t(result_[size_t(b)].gas);
   }
   for (int b = 0; b < forest_.local_blocks(); ++b) s.booked[size_t(b)] += pending_[size_t(b)];
   s.t = t_ + dt_;

@@ -25,7 +25,8 @@ struct BadCell {
   int block = -1, cell = -1;
 };
 
-/// What moving walls took from the fluid and gave to it: cells covered and uncovered (DESIGN 5b: booked, not given back).
+/// What moving walls took from the fluid and gave to it: cells covered and uncovered (DESIGN 5b: booked, not given
+/// back).
 struct Swept {
   double lost[Cons::count] = {}, made[Cons::count] = {};  ///< integrals of U
   int64_t covered = 0, fresh = 0;                         ///< cells
@@ -57,7 +58,8 @@ class Sweep {
   WallExchange wall_exchange() const;
   /// Loads of all probes from the state as it is (advance() makes those of mid-step).
   void measure_loads(const State& s);
-  /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks whose sums change.
+  /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks
+  /// whose sums change.
   void refill(State& s, std::vector<int>& changed, Swept& swept);
 
  private:
@@ -75,7 +77,8 @@ class Sweep {
   CutScheme& cut_scheme(Space& space) const {
     return is_gas(space.patch) ? *space.cut_gas[space.patch.material - 1] : *space.cut_mixed;
   }
-  /// Corrects the change beside walls, loads the block's probes; returns the cells without fluid, nullptr if there are none.
+  /// Corrects the change beside walls, loads the block's probes; returns the cells without fluid, nullptr if there are
+  /// none.
   const uint8_t* meet_walls(int block, Space& space);
   void load_probes(int block, Space& space, double dt);
   void run_blocks(State& s, const std::vector<int>& blocks, bool first_order);
@@ -91,8 +94,9 @@ class Sweep {
   Walls* walls_;
   double t_ = 0, dt_ = 0;
   std::vector<int> active_;
-  std::vector<UpdateResult> result_;               ///< [local block]
-  std::vector<Booked> pending_;                    ///< [local block] of this step
+  std::vector<UpdateResult> result_;  ///< [local block]
+  std::vector<int8_t> gas_before_;    ///< [local block] 1 or 2: the gas that its last step was done for; 0: not one gas
+  std::vector<Booked> pending_;       ///< [local block] of this step
   std::vector<std::vector<uint8_t>> marks_;        ///< [local block] bad cells of the last pass
   std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order
   std::vector<Near> near_;                         ///< [local block]

@@ -2,7 +2,7 @@
 #include "cfd/amr/gather.h"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
 
 #include "cfd/scheme/lane.h"
 
@@ -72,80 +72,61 @@ bool Gather::quiet(int block) const {
   return true;
 }
 
-void Gather::conserved_row(int block, int k, int j, const int* rows, int count, double* out, int pitch) const {
+template <int n_U, int n_W, class Convert>
+void Gather::fill_rows(int block, Patch& patch, const int (&cons)[n_U], const int (&prim)[n_W],
+                       const Convert& convert) const {
+  constexpr int w = Pack::size;
   const BlockShape& s = forest_.shape();
   const int g = s.ghost(0), n = s.n[0];
-  const GhostSource sk = source(block, 2, k), sj = source(block, 1, j);
-  if (const double* U = sk.constant ? sk.constant : sj.constant) {
-    for (int q = 0; q < count; ++q) std::fill_n(out + q * pitch, n + 2 * g, U[rows[q]]);
-    return;
-  }
-  const size_t row = s.at(sk.index, sj.index, 0);
-  const int centre = forest_.neighbour(block, {0, sj.offset, sk.offset});
-  for (int q = 0; q < count; ++q) {
-    const bool reversed = (rows[q] == Cons::mom_y && sj.mirror) || (rows[q] == Cons::mom_z && sk.mirror);
-    const double* from = state_.block(centre, rows[q]) + row;
-    double* to = out + q * pitch + g;
-    if (reversed)
-      for (int i = 0; i < n; ++i) to[i] = -from[i];
-    else
-      std::memcpy(to, from, size_t(n) * sizeof(double));
-  }
-  for (int e = 0; e < 2 * g; ++e) {
-    const int i = e < g ? e - g : n + e - g;
-    const GhostSource si = source(block, 0, i);
-    const int b = forest_.neighbour(block, {si.offset, sj.offset, sk.offset});
-    for (int q = 0; q < count; ++q) {
-      const bool reversed = (rows[q] == Cons::mom && si.mirror) !=
-                            ((rows[q] == Cons::mom_y && sj.mirror) || (rows[q] == Cons::mom_z && sk.mirror));
-      const double a = si.constant ? si.constant[rows[q]] : state_.block(b, rows[q])[row + size_t(si.index)];
-      out[q * pitch + g + i] = reversed && !si.constant ? -a : a;
-    }
-  }
-}
-
-template <class Pair>
-void Gather::mixed_rows(int block, Patch& patch, const Pair& pair) const {
-  const BlockShape& s = forest_.shape();
-  static constexpr int rows[Cons::count] = {0, 1, 2, 3, 4, 5, 6};
-  const int g = s.ghost(0), length = s.n[0] + 2 * g, pitch = patch.pitch();
-  thread_local Aligned<double> row;
-  row.resize(size_t(Cons::count) * pitch);
-  for (int k = -s.ghost(2); k < s.n[2] + s.ghost(2); ++k)
+  GhostSource ends[2 * ghost_layers];
+  for (int e = 0; e < 2 * g; ++e) ends[e] = source(block, 0, e < g ? e - g : n + e - g);
+  for (int k = -s.ghost(2); k < s.n[2] + s.ghost(2); ++k) {
+    const GhostSource sk = source(block, 2, k);
     for (int j = -s.ghost(1); j < s.n[1] + s.ghost(1); ++j) {
-      conserved_row(block, k, j, rows, Cons::count, row.data(), pitch);
-      double* out = patch.row(0, k, j) - g;
-      for (int i = 0; i < length; i += Pack::size) {
-        Pack U[Cons::count], W[Prim::stored];
-        for (int q = 0; q < Cons::count; ++q) U[q] = Pack::load(row.data() + q * pitch + i);
-        pair.to_primitive(U, W, medium_.floors);
-        for (int q = 0; q < Prim::stored; ++q) W[q].store(out + patch.stride_variable() * q + i);
+      const GhostSource sj = source(block, 1, j);
+      const double* constant = sk.constant ? sk.constant : sj.constant;
+      const size_t row = s.at(sk.index, sj.index, 0);
+      const int centre = forest_.neighbour(block, {0, sj.offset, sk.offset});
+      const double* from[n_U];
+      bool reversed[n_U];
+      double* out[n_W];
+      for (int q = 0; q < n_U; ++q) {
+        from[q] = constant ? nullptr : state_.block(centre, cons[q]) + row;
+        reversed[q] = !constant && ((cons[q] == Cons::mom_y && sj.mirror) || (cons[q] == Cons::mom_z && sk.mirror));
+      }
+      for (int q = 0; q < n_W; ++q) out[q] = patch.row(prim[q], k, j);
+      for (int i = 0; i < n; i += w) {
+        Pack U[n_U], W[n_W];
+        for (int q = 0; q < n_U; ++q) {
+          U[q] = constant ? Pack(constant[cons[q]]) : Pack::load(from[q] + i);
+          if (reversed[q]) U[q] = -U[q];
+        }
+        convert(U, W);
+        for (int q = 0; q < n_W; ++q) W[q].store(out[q] + i);
+      }
+      if (g == 0) continue;
+      double end_U[n_U][2 * ghost_layers + w], end_W[n_W][2 * ghost_layers + w];
+      for (int e = 0; e < 2 * g; ++e) {
+        const double* fixed = constant ? constant : ends[e].constant;
+        const int b = fixed ? centre : forest_.neighbour(block, {ends[e].offset, sj.offset, sk.offset});
+        for (int q = 0; q < n_U; ++q) {
+          const double u = fixed ? fixed[cons[q]] : state_.block(b, cons[q])[row + size_t(ends[e].index)];
+          const bool turned = !fixed && reversed[q] != (cons[q] == Cons::mom && ends[e].mirror);
+          end_U[q][e] = turned ? -u : u;
+        }
+      }
+      for (int e = 0; e < 2 * g; e += w) {
+        Pack U[n_U], W[n_W];
+        for (int q = 0; q < n_U; ++q) U[q] = Pack::load(end_U[q] + e);
+        convert(U, W);
+        for (int q = 0; q < n_W; ++q) W[q].store(end_W[q] + e);
+      }
+      for (int q = 0; q < n_W; ++q) {
+        std::copy_n(end_W[q], ghost_layers, out[q] - ghost_layers);
+        std::copy_n(end_W[q] + ghost_layers, ghost_layers, out[q] + n);
       }
     }
-}
-
-void Gather::gas_rows(int block, Patch& patch, const GasFlow& gas) const {
-  const BlockShape& s = forest_.shape();
-  int rows[GasCons::count];
-  for (int q = 0; q < GasCons::count; ++q) rows[q] = gas.cons_row(q);
-  const int g = s.ghost(0), length = s.n[0] + 2 * g, pitch = patch.pitch();
-  thread_local Aligned<double> row;
-  row.resize(size_t(GasCons::count) * pitch);
-  for (int k = -s.ghost(2); k < s.n[2] + s.ghost(2); ++k)
-    for (int j = -s.ghost(1); j < s.n[1] + s.ghost(1); ++j) {
-      conserved_row(block, k, j, rows, GasCons::count, row.data(), pitch);
-      double* out[GasPrim::count];
-      for (int q = 0; q < GasPrim::count; ++q) out[q] = patch.row(gas.prim_row(q), k, j) - g;
-      double *out_c = patch.row(Prim::c, k, j) - g, *out_rho_c2 = patch.row(Prim::rho_c2, k, j) - g;
-      for (int i = 0; i < length; i += Pack::size) {
-        Pack U[GasCons::count], W[GasPrim::count], c, rho_c2;
-        for (int q = 0; q < GasCons::count; ++q) U[q] = Pack::load(row.data() + q * pitch + i);
-        gas_to_primitive(gas, U, W, c, rho_c2, medium_.floors);
-        for (int q = 0; q < GasPrim::count; ++q) W[q].store(out[q] + i);
-        c.store(out_c + i);
-        rho_c2.store(out_rho_c2 + i);
-      }
-    }
+  }
 }
 
 void Gather::fill(int block, Patch& patch, bool all_rows) const {
@@ -153,10 +134,28 @@ void Gather::fill(int block, Patch& patch, bool all_rows) const {
   patch.lower = forest_.lower(block);
   patch.burns = patch.limited = false;
   patch.material = material(block);
-  if (patch.material && medium_.is_gas[patch.material - 1] && !all_rows)
-    gas_rows(block, patch, medium_.gas[patch.material - 1]);
-  else
-    std::visit([&](const auto& pair) { mixed_rows(block, patch, pair); }, medium_.mixture);
+  if (patch.material && medium_.is_gas[patch.material - 1] && !all_rows) {
+    const GasFlow& gas = medium_.gas[patch.material - 1];
+    int cons[GasCons::count], prim[GasPrim::stored];
+    for (int q = 0; q < GasCons::count; ++q) cons[q] = gas.cons_row(q);
+    for (int q = 0; q < GasPrim::count; ++q) prim[q] = gas.prim_row(q);
+    prim[GasPrim::c] = Prim::c;
+    prim[GasPrim::rho_c2] = Prim::rho_c2;
+    fill_rows(block, patch, cons, prim, [&](const Pack(&U)[GasCons::count], Pack(&W)[GasPrim::stored]) {
+      gas_to_primitive(gas, U, W, medium_.floors);
+    });
+    return;
+  }
+  int cons[Cons::count], prim[Prim::stored];
+  std::iota(cons, cons + Cons::count, 0);
+  std::iota(prim, prim + Prim::stored, 0);
+  std::visit(
+      [&](const auto& pair) {
+        fill_rows(block, patch, cons, prim, [&](const Pack(&U)[Cons::count], Pack(&W)[Prim::stored]) {
+          pair.to_primitive(U, W, medium_.floors);
+        });
+      },
+      medium_.mixture);
 }
 
 void Gather::fill_order(int block, const std::function<const uint8_t*(int)>& marks, Patch& patch) const {

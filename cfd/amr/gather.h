@@ -35,11 +35,10 @@ class Gather {
 
  private:
   int material(int block) const;
-  /// U of row (k, j) from i = -ghosts to n + ghosts - 1: variable rows[q] to out[q * pitch + ghosts + i].
-  void conserved_row(int block, int k, int j, const int* rows, int count, double* out, int pitch) const;
-  template <class Pair>
-  void mixed_rows(int block, Patch& patch, const Pair& pair) const;
-  void gas_rows(int block, Patch& patch, const GasFlow& gas) const;
+  /// Every row of the patch: convert(U, W) makes Packs of W[n_W] from those of U[n_U]; U comes from variables cons[],
+  /// W goes to patch rows prim[].
+  template <int n_U, int n_W, class Convert>
+  void fill_rows(int block, Patch& patch, const int (&cons)[n_U], const int (&prim)[n_W], const Convert& convert) const;
 
   const Forest& forest_;
   const State& state_;

@@ -63,25 +63,42 @@ class Update {
     }
   }
 
-  /// One gas alone.
-  void gas_row(const GasFlow& gas, double* const (&row)[Cons::count], int k, int j, std::vector<uint8_t>& marks,
-               Booked& booked, UpdateResult& result, Extremes& extremes) {
-    for (int i = 0; i < shape_.n[0]; i += Pack::size) {
-      Pack U[GasCons::count], W[GasPrim::count], c, rho_c2;
-      for (int q = 0; q < GasCons::count; ++q) U[q] = Pack::load(row[gas.cons_row(q)] + i);
+  /// One gas alone: its rows of the change are added here.
+  void gas_row(const GasFlow& gas, const double* U_old, const BlockChange& change, double* out, int k, int j,
+               std::vector<uint8_t>& marks, Booked& booked, UpdateResult& result, Extremes& extremes) {
+    constexpr int w = Pack::size;
+    const size_t cells = size_t(shape_.cells()), first = shape_.at(k, j, 0);
+    const double *old[GasCons::count], *d[GasCons::count];
+    double* to[GasCons::count];
+    for (int q = 0; q < GasCons::count; ++q) {
+      const size_t variable = size_t(gas.cons_row(q));
+      old[q] = U_old + variable * cells + first;
+      to[q] = out + variable * cells + first;
+      d[q] = change.row(gas.cons_row(q), k, j);
+    }
+    for (int i = 0; i < shape_.n[0]; i += w) {
+      Pack U[GasCons::count], W[GasPrim::stored];
+      for (int q = 0; q < GasCons::count; ++q) U[q] = Pack::load(old[q] + i) + Pack::load(d[q] + i);
       const int left = shape_.n[0] - i;
-      const Pack p = gas_to_primitive(gas, U, W, c, rho_c2, floors_);
+      const Pack p = gas_to_primitive(gas, U, W, floors_);
       const Mask fine = (p >= Pack(floors_.p)) & (U[GasCons::rho] >= Pack(floors_.rho));
-      if (!all(fine))
-        for (int l = 0; l < std::min(left, Pack::size); ++l)
+      for (int q = 0; q < GasCons::count; ++q)
+        if (left >= w)
+          U[q].store(to[q] + i);
+        else
+          for (int l = 0; l < left; ++l) to[q][i + l] = U[q][l];
+      if (!all(fine)) {
+        double* row[Cons::count];
+        for (int q = 0; q < Cons::count; ++q) row[q] = out + size_t(q) * cells + first;
+        for (int l = 0; l < std::min(left, w); ++l)
           if (!fine[l]) {
             Pack all_W[Prim::stored];
-            for (auto& w : all_W) w = Pack(0.0);
-            mend_cell(row, i + l, shape_.at(k, j, i + l), k, j, all_W, l, marks, booked, result);
-            for (int q = 1; q < GasPrim::count; ++q) W[q].set(l, all_W[Prim::v + q - 1][l]);
-            c.set(l, all_W[Prim::c][l]);
+            mend_cell(row, i + l, first + size_t(i + l), k, j, all_W, l, marks, booked, result);
+            for (int q = 1; q < GasPrim::count; ++q) W[q].set(l, all_W[gas.prim_row(q)][l]);
+            W[GasPrim::c].set(l, all_W[Prim::c][l]);
           }
-      extremes.rate = max(extremes.rate, first_lanes(rate(&W[GasPrim::v], c), left, 0.0));
+      }
+      extremes.rate = max(extremes.rate, first_lanes(rate(&W[GasPrim::v], W[GasPrim::c]), left, 0.0));
       extremes.p_max = max(extremes.p_max, first_lanes(p, left, 0.0));
     }
   }
@@ -226,6 +243,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
   const bool by_gas_kernel = m != 0 && in.medium->is_gas[m - 1];  // its rows of `change` alone are made
   const bool gas = by_gas_kernel && !in.burns && !in.blocked;
   UpdateResult result;
+  result.gas = gas ? m : 0;
   Extremes extremes;
   if (gas) extremes.alpha_min = extremes.alpha_max = Pack(m == 1 ? 1.0 : 0.0);
   thread_local Aligned<double> rows;
@@ -236,13 +254,22 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
   std::visit(
       [&](const auto& pair) {
         Update update(in, pair, s, patch.lower);
+        if (gas) {
+          const GasFlow& flow = in.medium->gas[m - 1];
+          if (!in.others_hold)
+            for (int q : {m == 1 ? int(Cons::arho2) : int(Cons::arho1), int(Cons::alpha1)})
+              std::memcpy(out + size_t(q) * cells, U + size_t(q) * cells, cells * sizeof(double));
+          for (int k = 0; k < s.n[2]; ++k)
+            for (int j = 0; j < s.n[1]; ++j)
+              update.gas_row(flow, U, change, out, k, j, marks, booked, result, extremes);
+          return;
+        }
         for (int k = 0; k < s.n[2]; ++k)
           for (int j = 0; j < s.n[1]; ++j) {
             for (int q = 0; q < Cons::count; ++q) {
               const double* old = U + size_t(q) * cells + s.at(k, j, 0);
               const double* d = change.row(q, k, j);
-              const bool owned = !by_gas_kernel || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row;
-              if (owned)
+              if (!by_gas_kernel || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row)
                 for (int i = 0; i < s.n[0]; ++i) row[q][i] = old[i] + d[i];
               else
                 std::memcpy(row[q], old, size_t(s.n[0]) * sizeof(double));
@@ -252,10 +279,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
                 if (in.blocked[s.at(k, j, i)])
                   for (int q = 0; q < Cons::count; ++q) row[q][i] = U[size_t(q) * cells + s.at(k, j, i)];
             if (in.burns) release(in, patch, k, j, U + s.at(k, j, 0), row[Cons::arho1], row[Cons::rhoE]);
-            if (gas)
-              update.gas_row(in.medium->gas[m - 1], row, k, j, marks, booked, result, extremes);
-            else
-              update.mixed_row(row, k, j, marks, booked, result, extremes);
+            update.mixed_row(row, k, j, marks, booked, result, extremes);
             for (int q = 0; q < Cons::count; ++q)
               std::memcpy(out + size_t(q) * cells + s.at(k, j, 0), row[q], size_t(s.n[0]) * sizeof(double));
           }

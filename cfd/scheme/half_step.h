@@ -26,9 +26,9 @@ void half_step(T (&W)[Prim::count], const T (&slope)[3][Prim::count], const T (&
     W[q] = W[q] - (vx * slope[0][q] + vy * slope[1][q] + vz * slope[2][q] + compress[q]);
 }
 
-/// Rows of one gas: rho, v[3], p.
+/// Rows of one gas: rho, v[3], p are reconstructed; c and rho_c2 belong to cell centres.
 struct GasPrim {
-  enum : int { rho, v, v_y, v_z, p, count };
+  enum : int { rho, v, v_y, v_z, p, count, c = count, rho_c2, stored };
 };
 
 /// The same for one material of constant Pi.

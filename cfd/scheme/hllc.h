@@ -37,7 +37,7 @@ T strength(T rho_face, const Sound<T>& cell) {
 
 /// from_left is set to the mask "upwind is left". Davis' wave speeds with the cells' sound speeds.
 template <class T, class M>
-Waves<T> waves(const Side<T>& L, const Side<T>& R, M& from_left) {
+[[gnu::always_inline]] inline Waves<T> waves(const Side<T>& L, const Side<T>& R, M& from_left) {
   const T S_L = min(L.v - L.c, R.v - R.c), S_R = max(L.v + L.c, R.v + R.c);
   const T m_L = L.rho * (S_L - L.v), m_R = R.rho * (S_R - R.v);
   const T v_star = L.v + (R.p - L.p + m_R * (L.v - R.v)) / (m_L - m_R);  // Toro 10.37, exact where L and R agree
@@ -57,8 +57,8 @@ Waves<T> waves(const Side<T>& L, const Side<T>& R, M& from_left) {
 /// d alpha/dt = -(F[alpha1]_+ - F[alpha1]_-)/h + alpha (v_f+ - v_f-)/h.
 /// L, R: Prim states at the face.
 template <int axis, class T>
-T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sound_L, const Sound<T>& sound_R,
-       const Closure& closure, T (&F)[Cons::count]) {
+[[gnu::always_inline]] inline T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sound_L,
+                                     const Sound<T>& sound_R, const Closure& closure, T (&F)[Cons::count]) {
   constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
   decltype(L[0] >= R[0]) left;
   const Waves<T> w = waves<T>({strength(L[Prim::arho1] + L[Prim::arho2], sound_L), L[n], L[Prim::p], sound_L.c},
@@ -87,8 +87,8 @@ struct GasCons {
 
 /// The same for one material of constant Pi (0 for an ideal gas).
 template <int axis, class T>
-void hllc_gas(const T (&L)[GasPrim::count], const T (&R)[GasPrim::count], T c_L, T c_R, double over_G, double Pi,
-              T (&F)[GasCons::count]) {
+[[gnu::always_inline]] inline void hllc_gas(const T (&L)[GasPrim::count], const T (&R)[GasPrim::count], T c_L, T c_R,
+                                            double over_G, double Pi, T (&F)[GasCons::count]) {
   constexpr int n = GasPrim::v + axis, t1 = GasPrim::v + (axis + 1) % 3, t2 = GasPrim::v + (axis + 2) % 3;
   decltype(c_L >= c_R) left;
   const Waves<T> w =

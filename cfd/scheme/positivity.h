@@ -25,7 +25,8 @@ T reach(const T (&slope)[3][n], int q) {
 /// mean: the cell's W; half: W after the half step. Scales half and slope. Returns the mask of the cells that were
 /// scaled.
 template <class Flow, class T>
-auto keep_faces_positive(const Flow&, const T (&mean)[Flow::n], T (&half)[Flow::n], T (&slope)[3][Flow::n]) {
+[[gnu::always_inline]] inline auto keep_faces_positive(const Flow&, const T (&mean)[Flow::n], T (&half)[Flow::n],
+                                                       T (&slope)[3][Flow::n]) {
   using detail::reach, detail::theta_above;
   constexpr int p = Flow::p;
   T low_p = half[p] - reach(slope, p), low_1 = half[0] - reach(slope, 0), low_2 = T(0), low_a = T(0), high_a = T(0);
