@@ -25,7 +25,7 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
   EnergyRow r;
   r.kinetic = kinetic_energy(s);
   r.elastic = stored.elastic, r.plastic = stored.plastic, r.collapse = stored.collapse;
-  r.eqps_max = stored.eqps_max;
+  r.heat = stored.heat, r.eqps_max = stored.eqps_max, r.temperature_max = stored.temperature_max;
   r.filter = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
   r.viscosity = ph.energy.viscosity, r.external = ph.energy.external, r.cracks = ph.energy.cracks;
   for (const auto& condition : ph.conditions)

@@ -19,7 +19,9 @@ struct EnergyBooks {
 struct EnergyRow {
   double kinetic = 0, elastic = 0, plastic = 0, filter = 0, collapse = 0, viscosity = 0, external = 0, conditions = 0,
          cracks = 0, residual = 0;
-  double eqps_max = 0;  ///< of all integration points
+  double heat = 0;             ///< part of plastic
+  double eqps_max = 0;         ///< of all integration points
+  double temperature_max = 0;  ///< K, of all points; 0: no material has a temperature
 };
 
 double kinetic_energy(const State& s);

@@ -16,7 +16,7 @@
 namespace bw::csd {
 namespace {
 
-std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
+std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, bool heats) {
   std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}, {"dt_stable", "s"}};
   for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy",
                            "viscous_work", "external_work", "condition_work", "crack_energy", "energy_residual"})
@@ -25,6 +25,7 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
   for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
   for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"})
     c.push_back({name, "1"});
+  if (heats) c.push_back({"heat", "J"}), c.push_back({"temperature_max", "K"});
   for (ProbeCase& probe : probes)
     std::visit(
         [&](const auto& p) {
@@ -34,6 +35,11 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes) {
   return c;
 }
 
+bool any_heats(const Elements& el) {
+  for (int body = 0; body < int(el.materials.size()); ++body)
+    if (heats(el, body)) return true;
+  return false;
+}
 Vec3 momentum_of(const State& s) {
   return parallel_reduce(
       int64_t(s.x.size()), Vec3{}, [&](int64_t n) { return s.m[NodeId(n)] * s.v[NodeId(n)]; },
@@ -60,7 +66,9 @@ Output::Output(const Case& cs, const Model& model, double t_end)
       start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
-  if (writes(model)) history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_));
+  if (writes(model))
+    history_.emplace(cs.run.output.directory + "/solid_history.csv",
+                     history_columns(probes_, any_heats(model.physics.elements)));
 }
 
 double Output::next_time(double t) const {
@@ -114,6 +122,7 @@ void Output::write_row(Model& m) {
   auto& cracks = m.physics.cracks;
   row.push_back(cracks ? double(cracks->opened_faces()) : 0);
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
+  if (any_heats(m.physics.elements)) row.push_back(energy_.heat), row.push_back(energy_.temperature_max);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
   if (history_) history_->row(row);
 }
@@ -126,17 +135,17 @@ std::string Output::write_fields(Model& m) {
   const auto& blocks = m.physics.elements.blocks;
   const size_t n = size_t(m.mesh.elem_count());
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
-  std::vector<double> J(n), mean(n), mises(n), eqps(n), eqps_max(n);
+  std::vector<double> J(n), mean(n), mises(n), eqps(n), eqps_max(n), temperature(n);
   parallel_for(int64_t(n), [&](int64_t i) {
     const SlotId slot = blocks.slot[ElemId(i)];
     if (!blocks.is_own(slot)) return;
     const ElementResult r = evaluate(m.physics.elements, s, slot, sigma_m);
     const size_t e = size_t(i);
     J[e] = s.volume[slot] / s.V0[slot], mean[e] = trace(r.sigma) / 3, mises[e] = von_mises(r.sigma), eqps[e] = r.eqps,
-    eqps_max[e] = r.eqps_max;
+    eqps_max[e] = r.eqps_max, temperature[e] = r.temperature;
   });
   if (const auto& ranks = m.physics.elements.ranks)
-    for (auto* values : {&J, &mean, &mises, &eqps, &eqps_max}) ranks->complete(*values);
+    for (auto* values : {&J, &mean, &mises, &eqps, &eqps_max, &temperature}) ranks->complete(*values);
   VtkMesh mesh;
   mesh.points = {s.x.data(), s.x.size()};
   mesh.add_hexahedra(m.mesh.hex);
@@ -147,6 +156,7 @@ std::string Output::write_fields(Model& m) {
                               VtkField::scalars("eqps_max", eqps_max),
                               VtkField::integers("body", std::span<const int32_t>(m.mesh.body.data(), n)),
                               VtkField::integers("gid", std::span<const int64_t>(m.mesh.elem_gid.data(), n))};
+  if (any_heats(m.physics.elements)) cells.push_back(VtkField::scalars("temperature", temperature));
   std::vector<int64_t> frag_id;
   std::vector<double> fail;
   if (auto& cracks = m.physics.cracks) {
@@ -230,6 +240,10 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
   }
   sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
+  if (any_heats(m.physics.elements)) {
+    sum.energies.emplace_back("heat", energy_.heat);
+    sum.values.emplace_back("temperature_max", energy_.temperature_max);
+  }
   if (ranks && !failed)
     sum.values.emplace_back("exchange_share",
                             ranks->comm().sum(timers().seconds("exchange") / timers().wall()) / sum.ranks);

@@ -26,7 +26,7 @@ void NodeProbe::values(const Mesh&, const State& s, const Physics&, std::vector<
   out.insert(out.end(), {x.x, x.y, x.z, v.x, v.y, v.z});
 }
 
-void ElementProbe::select(const Mesh& mesh, const Physics&) {
+void ElementProbe::select(const Mesh& mesh, const Physics& ph) {
   double nearest = 1e300;
   for (int e = 0; e < mesh.elem_count(); ++e) {
     Vec3 centre;
@@ -35,6 +35,7 @@ void ElementProbe::select(const Mesh& mesh, const Physics&) {
     if (d < nearest || (d == nearest && mesh.elem_gid[ElemId(e)] < mesh.elem_gid[elem_]))
       nearest = d, elem_ = ElemId(e);
   }
+  heats_ = heats(ph.elements, mesh.body[elem_]);
 }
 void ElementProbe::values(const Mesh&, const State& s, const Physics& ph, std::vector<double>& out) {
   const SlotId slot = ph.elements.blocks.slot[elem_];
@@ -50,6 +51,7 @@ void ElementProbe::values(const Mesh&, const State& s, const Physics& ph, std::v
   }
   out.insert(out.end(), {J, r.eqps, trace(r.sigma) / 3, von_mises(r.sigma), r.sigma.xx, r.sigma.yy, r.sigma.zz,
                          r.sigma.xy, r.sigma.xz, r.sigma.yz});
+  if (heats_) out.push_back(r.temperature);
 }
 
 void RingProbe::select(const Mesh& mesh, const Physics&) {

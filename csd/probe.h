@@ -43,13 +43,17 @@ struct ElementProbe {
   }
   void select(const Mesh& mesh, const Physics&);
   std::vector<History::Column> columns() const {
-    return {{"J", "1"},         {"eqps", "1"},      {"sigma_m", "Pa"},  {"von_mises", "Pa"}, {"sigma_xx", "Pa"},
-            {"sigma_yy", "Pa"}, {"sigma_zz", "Pa"}, {"sigma_xy", "Pa"}, {"sigma_xz", "Pa"},  {"sigma_yz", "Pa"}};
+    std::vector<History::Column> c{{"J", "1"},         {"eqps", "1"},      {"sigma_m", "Pa"},  {"von_mises", "Pa"},
+                                   {"sigma_xx", "Pa"}, {"sigma_yy", "Pa"}, {"sigma_zz", "Pa"}, {"sigma_xy", "Pa"},
+                                   {"sigma_xz", "Pa"}, {"sigma_yz", "Pa"}};
+    if (heats_) c.push_back({"temperature", "K"});
+    return c;
   }
   void values(const Mesh& mesh, const State& s, const Physics& ph, std::vector<double>& out);
 
  private:
   ElemId elem_;
+  bool heats_ = false;
 };
 
 /// Means over the nodes that stood in a slab across an axis at the start, weighted by mass.

@@ -44,6 +44,10 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
       r.eqps += 0.125 * eqps;
       r.eqps_max = std::max(r.eqps_max, eqps);
       r.plastic += point_V0 * work;
+      if (material.heat.specific_heat > 0) r.heat += point_V0 * material.heat.taylor_quinney * work;
+      const double temperature = material.temperature(at_point);
+      r.temperature += 0.125 * temperature;
+      r.temperature_max = std::max(r.temperature_max, temperature);
     }
     collapsed |= p.trial.J_squared < collapse_ratio * collapse_ratio * J_bar * J_bar || p.det_g <= 0;
   }
@@ -80,12 +84,25 @@ StoredEnergy stored_energy(const Elements& el, const State& s) {
       el, StoredEnergy{},
       [&](SlotId slot) {
         const ElementResult r = evaluate(el, s, slot);
-        return StoredEnergy{r.elastic, r.plastic, r.collapse, r.eqps_max};
+        return StoredEnergy{r.elastic, r.plastic, r.heat, r.collapse, r.eqps_max, r.temperature_max};
       },
       [](const StoredEnergy& a, const StoredEnergy& b) {
-        return StoredEnergy{a.elastic + b.elastic, a.plastic + b.plastic, a.collapse + b.collapse,
-                            std::max(a.eqps_max, b.eqps_max)};
+        return StoredEnergy{a.elastic + b.elastic,
+                            a.plastic + b.plastic,
+                            a.heat + b.heat,
+                            a.collapse + b.collapse,
+                            std::max(a.eqps_max, b.eqps_max),
+                            std::max(a.temperature_max, b.temperature_max)};
       });
+}
+
+bool heats(const Elements& el, int body) {
+  return std::visit(
+      []<class M>(const M& material) {
+        if constexpr (M::plastic) return material.heat.specific_heat > 0;
+        return false;
+      },
+      el.materials[size_t(body)]);
 }
 
 double mean_eqps(const Elements& el, const State& s, SlotId slot) {

@@ -7,12 +7,15 @@ namespace bw::csd {
 
 /// Means over the current volume, sums over the element.
 struct ElementResult {
-  Sym3 sigma;           ///< Pa, mean Cauchy stress, tension positive
-  double eqps = 0;      ///< mean over the points
-  double eqps_max = 0;  ///< of its points
-  double elastic = 0;   ///< J, V U(J_bar) + sum of W_bar
-  double plastic = 0;   ///< J, spent since the start
-  double collapse = 0;  ///< J, in points that lost most of their volume
+  Sym3 sigma;                  ///< Pa, mean Cauchy stress, tension positive
+  double eqps = 0;             ///< mean over the points
+  double eqps_max = 0;         ///< of its points
+  double elastic = 0;          ///< J, V U(J_bar) + sum of W_bar
+  double plastic = 0;          ///< J, spent since the start
+  double heat = 0;             ///< J, the part of it that heats
+  double temperature = 0;      ///< K, mean over the points; 0: the material has none
+  double temperature_max = 0;  ///< K, of its points
+  double collapse = 0;         ///< J, in points that lost most of their volume
 };
 
 double von_mises(const Sym3& sigma);
@@ -22,11 +25,14 @@ ElementResult evaluate(const Elements& elements, const State& s, SlotId slot,
                        const Field<double, SlotId>* sigma_m = nullptr);
 
 struct StoredEnergy {
-  double elastic = 0, plastic = 0, collapse = 0;
-  double eqps_max = 0;
+  double elastic = 0, plastic = 0, heat = 0, collapse = 0;
+  double eqps_max = 0, temperature_max = 0;
 };
 /// Of all elements.
 StoredEnergy stored_energy(const Elements& elements, const State& s);
+
+/// Whether the body's material heats by plastic work.
+bool heats(const Elements& elements, int body);
 
 /// Mean eqps of an element's points (cheap: reads the history only).
 double mean_eqps(const Elements& elements, const State& s, SlotId slot);

@@ -14,24 +14,75 @@ struct JohnsonCook {
   double rate_0 = 1;                ///< 1/s
   double T_room = 293, T_melt = 0;  ///< K
 
+  /// At one temperature. Increments are small against what has flowed, but at the very beginning: powers follow from
+  /// their last value by a series, and only the rate's logarithm is left.
   template <class T>
   struct Hot {
     const JohnsonCook& law;
-    T softened;  ///< 1 - T*^m
+    T star, softening;  ///< T*, T*^m
 
-    T at_rest(T eqps) const { return (T(law.A) + T(law.B) * law.power(eqps)) * softened; }
+    T softened() const { return T(1) - softening; }
+    T at_rest(T eqps) const { return (T(law.A) + T(law.B) * law.power(eqps)) * softened(); }
     FlowStress<T> stress(T eqps, T rate) const {
       const T strain = max(eqps, T(1e-30)), part = T(law.B) * law.power(strain), hard = T(law.A) + part;
       const T ratio = rate * T(1 / law.rate_0), factor = T(1) + T(law.C) * log(max(ratio, T(1)));
       const T by_rate = select(ratio > T(1), T(law.C) / max(rate, T(law.rate_0)), T(0));
-      return {hard * factor * softened, T(law.n) * part / strain * factor * softened, hard * by_rate * softened};
+      const T soft = softened();
+      return {hard * factor * soft, T(law.n) * part / strain * factor * soft, hard * by_rate * soft};
+    }
+
+    /// What increment_by_newton answers, and the flow stress at rest after it.
+    struct Step : Increment<T> {
+      T rest;
+    };
+    template <class Lanes>
+    Step increment(T q, T stiffness, T eqps, T rest, double per_dt, Lanes yields) const {
+      const T most = (q - rest) / stiffness;  // the flow stress is at least that at rest
+      const auto large = most > T(small) * eqps;
+      const T fixed = T(law.A) * softened(), part = rest - fixed, per_eqps = T(1) / max(eqps, T(1e-30));
+      const T ratio_per_x = T(per_dt / law.rate_0);
+      T lower(0), upper = most, x = most, slope(0);
+      auto active = yields & !large;  // lanes stop one by one
+      for (int i = 0; i < 100 && any(active); ++i) {
+        const T xi = x * per_eqps, grown = part * power_near_one(xi, law.n), ratio = x * ratio_per_x;
+        const T factor = T(1) + T(law.C) * log(max(ratio, T(1)));
+        const T g = q - stiffness * x - (fixed + grown) * factor;
+        const auto below = g > T(0);
+        lower = select(below, x, lower);
+        upper = select(below, upper, x);
+        const T by_eqps = T(law.n) * grown * per_eqps * (T(1) - xi) * factor;
+        // times x, as the rate's slope is C/x: one division
+        const T by_rate_x = select(ratio > T(1), T(law.C) * (fixed + grown), T(0));
+        const T newton = x + g * x / ((stiffness + by_eqps) * x + by_rate_x);
+        const T middle = select(lower > T(0), T(0.5) * (lower + upper), T(1.0 / 16) * upper);
+        const T next = select((newton >= lower) & (newton <= upper), newton, middle);
+        const auto moves = stiffness * abs(next - x) > T(1e-6) * q;  // Newton's step squares it
+        slope = select(active, by_eqps, slope);
+        x = select(active, next, x);
+        active = active & moves;
+      }
+      const T rest_after = fixed + part * power_near_one(x * per_eqps, law.n);
+      if (!any(yields & large)) [[likely]]
+        return {{x, slope}, rest_after};
+      const auto step = increment_by_newton(*this, q, stiffness, eqps, rest, per_dt, yields & large);
+      return {{select(large, step.eqps, x), select(large, step.slope, slope)},
+              select(large, at_rest(eqps + step.eqps), rest_after)};
+    }
+    /// A flow stress at rest, after heating to a temperature.
+    template <class Lanes>
+    T heated(T rest, T temperature, Lanes yields) const {
+      const T to = law.homologous(temperature), xi = (to - star) / max(star, T(1e-30));
+      const auto large = xi > T(small);
+      T softening_after = min(softening * power_near_one(xi, law.m), T(1));
+      if (any(yields & large)) [[unlikely]]
+        softening_after = select(large, law.softening(to), softening_after);
+      return rest * (T(1) - softening_after) / max(softened(), T(1e-30));
     }
   };
   template <class T>
   Hot<T> at(T temperature) const {
-    const T star = min(max((temperature - T(T_room)) * T(1 / (T_melt - T_room)), T(0)), T(1));
-    if (m == 1) return {*this, T(1) - star};
-    return {*this, T(1) - select(star > T(0), exp(T(m) * log(max(star, T(1e-30)))), T(0))};
+    const T star = homologous(temperature);
+    return {*this, star, softening(star)};
   }
 
   template <class K>
@@ -54,9 +105,27 @@ struct JohnsonCook {
   }
 
  private:
+  static constexpr double small = 1.0 / 32;
+
+  template <class T>
+  T homologous(T temperature) const {
+    return min(max((temperature - T(T_room)) * T(1 / (T_melt - T_room)), T(0)), T(1));
+  }
+  template <class T>
+  T softening(T star) const {
+    if (m == 1) return star;
+    return select(star > T(0), exp(T(m) * log(max(star, T(1e-30)))), T(0));
+  }
   template <class T>
   T power(T eqps) const {
     return exp(T(n) * log(max(eqps, T(1e-30))));
+  }
+  /// (1 + xi)^a for |xi| <= small, to 1e-12.
+  template <class T>
+  static T power_near_one(T xi, double a) {
+    T p = T(1) + T((a - 5) / 6) * xi;
+    for (int k = 5; k >= 1; --k) p = T(1) + T((a - k + 1) / k) * xi * p;
+    return p;
   }
 };
 

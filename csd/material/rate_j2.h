@@ -13,8 +13,8 @@ namespace bw::csd {
 /// A flow has at(temperature), an object with
 ///   at_rest(eqps)       flow stress where nothing moves [Pa]: it decides on yielding
 ///   stress(eqps, rate)  FlowStress, >= at_rest(eqps) >= 0
-/// and at_rest and stress rise with the rate. It may solve for the increment of eqps itself: increment(...) as in
-/// flow_solver.h.
+/// and stress rises with the rate. It may solve for the increment of eqps itself, as increment_by_newton does, and then
+/// know the flow stress at rest after it, before and after heating: increment(...).rest, heated(rest, ...).
 template <class Flow>
 struct RateJ2 : Elastic {
   static constexpr auto name = "j2";
@@ -59,22 +59,29 @@ struct RateJ2 : Elastic {
     const auto hot = flow.at(T(heat.initial) + T(heating) * work);
     // 3 mu_bar: Mises' stress over eqps in the return; lanes that don't yield are given a solved problem
     const T q = select(yields, sqrt(q2), rest), stiffness = T(3 * mu) * (t.iso * t.third_trace);
-    const Increment<T> step = increment_of(hot, q, stiffness, eqps, rest, per_dt, yields);
+    const auto step = increment_of(hot, q, stiffness, eqps, rest, per_dt, yields);
     const T end = max(q - stiffness * step.eqps, T(0));
     const T spent = max(end - T(0.5) * step.slope * step.eqps, T(0)) * step.eqps;  // mean stress at the step's rate
     const T work_after = select(yields, work + spent, work), eqps_after = select(yields, eqps + step.eqps, eqps);
-    const T rest_after = flow.at(T(heat.initial) + T(heating) * work_after).at_rest(eqps_after);
+    const T rest_after = heated(hot, step, T(heat.initial) + T(heating) * work_after, eqps_after, yields);
     store(history + 6 * lanes, eqps_after);
     store(history + 7 * lanes, work_after);
     store(history + 8 * lanes, select(yields, rest_after, rest) - T(first_yield));
     return radial_return(t, k_trial, end / q, yields);
   }
   template <class Hot, class T, class Lanes>
-  static Increment<T> increment_of(const Hot& hot, T q, T stiffness, T eqps, T rest, double per_dt, Lanes yields) {
+  static auto increment_of(const Hot& hot, T q, T stiffness, T eqps, T rest, double per_dt, Lanes yields) {
     if constexpr (requires { hot.increment(q, stiffness, eqps, rest, per_dt, yields); })
       return hot.increment(q, stiffness, eqps, rest, per_dt, yields);
     else
       return increment_by_newton(hot, q, stiffness, eqps, rest, per_dt, yields);
+  }
+  template <class Hot, class Step, class T, class Lanes>
+  T heated(const Hot& hot, const Step& step, T temperature, T eqps, Lanes yields) const {
+    if constexpr (requires { hot.heated(step.rest, temperature, yields); })
+      return hot.heated(step.rest, temperature, yields);
+    else
+      return flow.at(temperature).at_rest(eqps);
   }
 };
 

@@ -325,3 +325,61 @@ def loaded_ring(r_i, wall, rho, sigma_y, hardening, peak, decay_length, speed, e
         if eps_limit is not None and factor * math.log(state[0] / r0) >= eps_limit:
             break
     return t, state[1], state[0]
+
+
+# name: density, specific heat, initial temperature, flow stress over (eqps, rate, temperature); Johnson and Cook 1983, Zerilli and Armstrong 1987
+def johnson_cook(a, b, n, c, m, melting, room=293.0):
+    def stress(eqps, rate, temperature):
+        star = np.clip((temperature - room) / (melting - room), 0.0, 1.0)
+        return 1e6 * (a + b * eqps ** n) * (1 + c * np.log(np.maximum(rate, 1.0))) * (1 - star ** m)
+    return stress
+
+
+def zerilli_armstrong(c0, c1, c2, c3, c4, c5, n):
+    def stress(eqps, rate, temperature):
+        thermal = np.exp(temperature * (c4 * np.log(np.maximum(rate, 1.0)) - c3))
+        return 1e6 * (c0 + (c1 + c2 * np.sqrt(eqps)) * thermal + c5 * eqps ** n)
+    return stress
+
+
+FLOW_LAWS = {
+    "copper OFHC": (8960, 383, johnson_cook(90, 292, .31, .025, 1.09, 1356)),
+    "brass cartridge": (8520, 385, johnson_cook(112, 505, .42, .009, 1.68, 1189)),
+    "iron Armco": (7890, 452, johnson_cook(175, 380, .32, .06, .55, 1811)),
+    "steel 1006": (7890, 452, johnson_cook(350, 275, .36, .022, 1.0, 1811)),
+    "steel 4340": (7830, 477, johnson_cook(792, 510, .26, .014, 1.03, 1793)),
+    "steel S-7": (7750, 477, johnson_cook(1539, 477, .18, .012, 1.0, 1763)),
+    "aluminium 2024-T351": (2770, 875, johnson_cook(265, 426, .34, .015, 1.0, 775)),
+    "aluminium 7039": (2770, 875, johnson_cook(337, 343, .41, .01, 1.0, 877)),
+    "tungsten alloy": (17000, 134, johnson_cook(1506, 177, .12, .016, 1.0, 1723)),
+    "copper OFHC/ZA": (8960, 383, zerilli_armstrong(65, 0, 890, .0028, .000115, 0, 1)),
+    "iron Armco/ZA": (7890, 452, zerilli_armstrong(0, 1033, 0, .00698, .000415, 266, .289))}
+
+
+def flow_history(name, t, eqps, share=0.9, start=293.0):
+    """Flow stress [Pa] and temperature [K] along a given eqps(t), adiabatic: rho c_p dT = share sigma_y d(eqps), by the trapezium rule."""
+    density, specific_heat, law = FLOW_LAWS[name]
+    stress, temperature = np.zeros(len(t)), np.full(len(t), start)
+    stress[0] = law(0.0, 0.0, start)
+    for k in range(1, len(t)):
+        change = eqps[k] - eqps[k - 1]
+        stress[k] = law(eqps[k], change / (t[k] - t[k - 1]), temperature[k - 1])
+        temperature[k] = temperature[k - 1] + share / (density * specific_heat) * change * 0.5 * (stress[k - 1] + stress[k])
+    return stress, temperature
+
+
+def plastic_wave(density, young, poisson, yield_stress, hardening, speed):
+    """S2c: waves of small strain in uniaxial strain, linear hardening, body stopped from `speed` by a wall: elastic and plastic speeds,
+    Hugoniot elastic limit and the stress behind both."""
+    bulk, shear = young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))
+    elastic_speed = math.sqrt((bulk + 4 * shear / 3) / density)
+    # s = 2/3 sigma_y = 4/3 mu (e - 3/2 eqps) and d sigma_y = H d(eqps) give ds/de = 4/3 mu H / (3 mu + H)
+    plastic_speed = math.sqrt((bulk + 4 * shear / 3 * hardening / (3 * shear + hardening)) / density)
+    hel = yield_stress * (bulk + 4 * shear / 3) / (2 * shear)
+    v_hel = hel / (density * elastic_speed)
+    return dict(elastic_speed=elastic_speed, plastic_speed=plastic_speed, hel=hel, v_hel=v_hel,
+                stress=hel + density * plastic_speed * (speed - v_hel))
+
+
+def young_and_poisson(bulk, shear):
+    return 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
