@@ -44,7 +44,7 @@ struct Increment {
 /// Root x of g(x) = q - stiffness x - hot.stress(eqps + x, x per_dt), with g(0) > 0 in the lanes that yield; rest =
 /// hot.stress(eqps, 0) or near it. A stress that grows with the logarithm of the rate makes g steep and then flat, so
 /// where Newton leaves the bracket and nothing is known below, the upper end falls to a sixteenth; else bisection. Ends
-/// when stiffness x has settled to 1e-9 q (to the square of it, after Newton's last step).
+/// with Newton's step from |g| < 1e-8 q, which squares it.
 template <class T, class Hot, class Lanes>
 Increment<T> increment_by_newton(const Hot& hot, T q, T stiffness, T eqps, T rest, double per_dt, Lanes yields) {
   T lower(0), upper = q / stiffness, slope(0);
@@ -59,7 +59,7 @@ Increment<T> increment_by_newton(const Hot& hot, T q, T stiffness, T eqps, T res
     const T newton = x + g / (stiffness + by_eqps + by_rate * T(per_dt));
     const T middle = select(lower > T(0), T(0.5) * (lower + upper), T(1.0 / 16) * upper);
     const T next = select((newton >= lower) & (newton <= upper), newton, middle);
-    const auto moves = stiffness * abs(next - x) > T(1e-9) * q;
+    const auto moves = abs(g) > T(1e-8) * q;
     slope = select(active, by_eqps, slope);
     x = select(active, next, x);
     active = active & moves;

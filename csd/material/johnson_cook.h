@@ -15,7 +15,7 @@ struct JohnsonCook {
   double T_room = 293, T_melt = 0;  ///< K
 
   /// At one temperature. Increments are small against what has flowed, but at the very beginning: powers follow from
-  /// their last value by a series, and only the rate's logarithm is left.
+  /// their last value by a series, and only the rate's logarithm is left, once in most steps.
   template <class T>
   struct Hot {
     const JohnsonCook& law;
@@ -40,8 +40,11 @@ struct JohnsonCook {
       const T most = (q - rest) / stiffness;  // the flow stress is at least that at rest
       const auto large = most > T(small) * eqps;
       const T fixed = T(law.A) * softened(), part = rest - fixed, per_eqps = T(1) / max(eqps, T(1e-30));
-      const T ratio_per_x = T(per_dt / law.rate_0);
-      T lower(0), upper = most, x = most, slope(0);
+      const T ratio_per_x = T(per_dt / law.rate_0), rated = T(law.C) * rest;
+      // first guess: a step of Newton from `most` with a rough logarithm
+      const T over = rated * max(rough_log(max(most * ratio_per_x, T(1))), T(0));
+      T lower(0), upper = most, slope(0);
+      T x = max(most - over * most / (stiffness * most + rated), T(1.0 / 16) * most);
       auto active = yields & !large;  // lanes stop one by one
       for (int i = 0; i < 100 && any(active); ++i) {
         const T xi = x * per_eqps, grown = part * power_near_one(xi, law.n), ratio = x * ratio_per_x;
@@ -50,13 +53,13 @@ struct JohnsonCook {
         const auto below = g > T(0);
         lower = select(below, x, lower);
         upper = select(below, upper, x);
+        // Halley: g' = -a/x, and g'' = b/x^2 but for small terms, as the rate's part of g is -b ln x
         const T by_eqps = T(law.n) * grown * per_eqps * (T(1) - xi) * factor;
-        // times x, as the rate's slope is C/x: one division
-        const T by_rate_x = select(ratio > T(1), T(law.C) * (fixed + grown), T(0));
-        const T newton = x + g * x / ((stiffness + by_eqps) * x + by_rate_x);
+        const T b = select(ratio > T(1), T(law.C) * (fixed + grown), T(0)), a = (stiffness + by_eqps) * x + b;
+        const T halley = x + T(2) * g * a * x / (T(2) * a * a - g * b);
         const T middle = select(lower > T(0), T(0.5) * (lower + upper), T(1.0 / 16) * upper);
-        const T next = select((newton >= lower) & (newton <= upper), newton, middle);
-        const auto moves = stiffness * abs(next - x) > T(1e-6) * q;  // Newton's step squares it
+        const T next = select((halley >= lower) & (halley <= upper), halley, middle);
+        const auto moves = abs(next - x) > T(4e-3) * x;  // the step cubes it
         slope = select(active, by_eqps, slope);
         x = select(active, next, x);
         active = active & moves;
@@ -119,6 +122,15 @@ struct JohnsonCook {
   template <class T>
   T power(T eqps) const {
     return exp(T(n) * log(max(eqps, T(1e-30))));
+  }
+  /// ln to within 0.03, from the bits.
+  static Pack rough_log(Pack a) { return from_bits(Pack(bw::detail::bits_as_number<Pack::V, Mask::V>(a.v))); }
+  static double rough_log(double a) {
+    return from_bits(bw::detail::bits_as_number<bw::detail::D1, bw::detail::I1>(bw::detail::D1{a})[0]);
+  }
+  template <class T>
+  static T from_bits(T n) {
+    return T(0.6931471805599453) * (n * T(0x1p-32) - T(1023 - 0.043));
   }
   /// (1 + xi)^a for |xi| <= small, to 1e-12.
   template <class T>
