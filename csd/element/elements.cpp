@@ -205,33 +205,37 @@ void start(const Mesh& mesh, Elements& el, State& s) {
   s.resize(size_t(mesh.node_count()), size_t(el.blocks.slot_count()));
   s.x = mesh.X;
   s.history.clear();
-  el.corner_mass.assign(size_t(el.blocks.slot_count()) * 8, 0);
   for (int body = 0; body < int(el.materials.size()); ++body) {
     const int first = el.blocks.first_block[size_t(body)], last = el.blocks.first_block[size_t(body) + 1];
     std::visit(
-        [&]<class M>(const M& material) {
+        [&]<class M>(const M&) {
           s.history.emplace_back(size_t(el.blocks.own_count(body)) * 8 * M::components * lanes, 0.0);
           for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1)) {
             const ElemId e = el.blocks.elem[slot];
             const bool own = el.blocks.is_own(slot);
             start_element<M>(mesh, e, slot, own ? history_of<M>(s, el, body, slot / lanes) + slot % lanes : nullptr, s);
-            const auto share = row_sums(corners(mesh, e));
-            for (int a = 0; a < 8; ++a)
-              el.corner_mass[size_t((slot / lanes * 8 + a) * lanes + slot % lanes)] =
-                  material.density * share[size_t(a)];
           }
         },
         el.materials[size_t(body)]);
   }
   for (int e = 0; e < mesh.elem_count(); ++e)
-    for (int a = 0; a < 8; ++a) s.m[mesh.hex[ElemId(e)][size_t(a)]] += el.mass(el.blocks.slot[ElemId(e)], a);
+    for (int a = 0; const double mass : corner_masses(mesh, el, ElemId(e)))
+      s.m[mesh.hex[ElemId(e)][size_t(a++)]] += mass;
+}
+
+[[gnu::noinline]] std::array<double, 8> corner_masses(const Mesh& mesh, const Elements& el, ElemId e) {
+  const double density =
+      std::visit([](const auto& material) { return material.density; }, el.materials[size_t(mesh.body[e])]);
+  std::array<double, 8> mass = row_sums(corners(mesh, e));
+  for (double& m : mass) m *= density;
+  return mass;
 }
 
 double node_mass(const Mesh& mesh, const Elements& el, std::span<const ElemId> around, NodeId n) {
   double m = 0;
   for (ElemId e : around)
-    for (int a = 0; a < 8; ++a)
-      if (mesh.hex[e][size_t(a)] == n) m += el.mass(el.blocks.slot[e], a);
+    for (int a = 0; const double mass : corner_masses(mesh, el, e))
+      if (mesh.hex[e][size_t(a++)] == n) m += mass;
   return m;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All elements of the model: blocks and the material of each body, and the loops over them.
 #pragma once
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,11 +17,6 @@ namespace bw::csd {
 struct Elements {
   Blocks blocks;
   std::vector<Materials> materials;  ///< [body]
-  Aligned<double> corner_mass;       ///< [block][8][lanes] kg: row sums of rho_0 N_a (VALIDATION A.3)
-
-  double mass(SlotId slot, int corner) const {
-    return corner_mass[size_t((slot / lanes * 8 + corner) * lanes + slot % lanes)];
-  }
 
   int body_of(SlotId slot) const;
 
@@ -71,6 +67,8 @@ void start(const Mesh& mesh, Elements& elements, State& s);
 double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s,
                       const Reference* reference = nullptr);
 
+/// Row sums of rho_0 N_a [kg] over an element (VALIDATION A.3), from the reference positions of its nodes.
+std::array<double, 8> corner_masses(const Mesh& mesh, const Elements& elements, ElemId e);
 /// Lumped mass of a node [kg]: its share of the elements given, which must ascend, so that it has one value.
 double node_mass(const Mesh& mesh, const Elements& elements, std::span<const ElemId> around, NodeId n);
 

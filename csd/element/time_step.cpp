@@ -11,7 +11,9 @@ namespace bw::csd {
 
 void TimeStep::share_masses(const Elements& el, const State& s) {
   if (mass_.empty()) {
-    mass_ = el.corner_mass;
+    mass_.resize(size_t(el.blocks.slot_count()) * 8);
+    for (size_t i = 0; i < mass_.size(); ++i)  // any weights: they are made to sum to the nodes' masses
+      mass_[i] = s.V0[SlotId(int64_t(i / (8 * lanes) * lanes + i % lanes))];
     distortion_.resize(s.V0.size(), 1.0);
   }
   sum_.resize(s.m.size());

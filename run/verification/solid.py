@@ -5,7 +5,7 @@ import sys
 import numpy as np
 
 from . import reference
-from .case import ROOT, at_most, between, case, close, output, run, unit_rows
+from .case import ROOT, RunFailed, at_most, between, case, close, output, run, unit_rows
 
 sys.path.insert(0, str(ROOT / "run"))
 import fields  # noqa: E402
@@ -50,11 +50,11 @@ def s13():
     yield from unit_rows("csd", "FractureTopology.*")
 
 
-def taylor(across, along, sector="quarter", extra=""):
+def taylor(across, along, sector="quarter", extra="", split=False):
     """The bar of S7. Its foot keeps to the wall (u_z = 0), as in the reference; a wall that lets go lets the rim curl up."""
     text = ("[time]\nend = \"80 us\"\n" + output("80 us", "1 us")
             + f'[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = {across}, along = {along}, '
-            + f'sector = "{sector}"}}\nvelocity = [0.0, 0.0, "-227 m/s"]\n' + COPPER + roller("lower", 2))
+            + f'sector = "{sector}", split = {str(split).lower()}}}\nvelocity = [0.0, 0.0, "-227 m/s"]\n' + COPPER + roller("lower", 2))
     return text + (roller("cut_x", 0) + roller("cut_y", 1) if sector == "quarter" else "") + extra
 
 
@@ -103,6 +103,36 @@ def s7():
     yield at_most("S12: energy residual over the kinetic energy at the start", np.abs(table["energy_residual"]).max() / table["kinetic_energy"][0], 0.01)
     # VALIDATION's history of the fully refined bar, at 20 us: R 6.1747 mm, L 28.067 mm, kinetic energy 148.30 J of the whole bar
     yield close("kinetic energy at 20 us [J]", 4 * np.interp(20e-6, table["t"], table["kinetic_energy"]), 148.30, 0.02)
+
+
+MULTIPLES = (0.5, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5)
+
+
+def largest_stable_multiple(name, text):
+    """Of the bound 2/omega: the runs up to it keep the energy to 1 % of what the bar brings; and the collapsed elements of the run at 0.9."""
+    stable, collapsed, seconds = 0.0, 0, 0.0
+    for multiple in MULTIPLES:
+        try:
+            result = run(f"T16_{name}_{multiple:g}", text + f"[solid.time_step]\nsafety = {multiple!r}\n", only="solid")
+        except RunFailed:
+            break
+        table = fields.history(result.directory / "solid_history.csv")
+        seconds += result.seconds
+        if not np.abs(table["energy_residual"]).max() <= 0.01 * table["kinetic_energy"][0]:
+            break
+        if multiple == 0.9:
+            collapsed = int(np.max(table["collapsed"]))
+        stable = multiple
+    return stable, collapsed, seconds
+
+
+@case("T16")
+def t16():
+    """Largest stable multiple of the time step's bound on flattened elements: the bar of S7 to 80 us, plain, hexahedra of split tetrahedra, 8 across"""
+    for name, text in (("4 across", taylor(4, 40)), ("split, 2 across", taylor(2, 10, split=True)), ("8 across (S7)", taylor(8, 80))):
+        stable, collapsed, seconds = largest_stable_multiple(name.replace(" ", "_"), text)
+        yield between(f"{name}: largest stable multiple (of {', '.join(format(m, 'g') for m in MULTIPLES)})", stable, 0.9, 1.6, seconds)
+        yield at_most(f"{name}: elements with a collapsed point at 0.9", collapsed, 1e9)
 
 
 @case("S12")
