@@ -48,6 +48,8 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   ph.viscosity = cs.viscosity;
   ph.resting.skip = cs.skip_resting;
   ph.resting.start(ph.elements.blocks.block_count());
+  for (int block = 0; block < ph.elements.blocks.block_count(); ++block)  // other ranks' are never looked at here
+    if (!ph.elements.blocks.is_own(block)) ph.resting.state[size_t(block)] = Resting::reached;
   if (cs.filter.kind != "off") ph.filter.emplace(cs.filter, ph.elements, s);
   if (!cs.loads.empty()) {
     std::vector<LoadKind> kinds;

@@ -43,6 +43,8 @@ TOTALS = ("steps", "t", "energies", "masses", "momenta", "counts")
 def totals_differ(one, two):
     a, b = summary(one, "solid"), summary(two, "solid")
     values = [{key: value for key, value in s["values"].items() if not key.endswith("_share")} for s in (a, b)]
+    for s in (a, b):
+        s["counts"].pop("skipped_blocks", None)  # work, not result: those at a border are never passed over
     return [f"solid_summary.json:{key}" for key in TOTALS if a[key] != b[key]] + (["solid_summary.json:values"] if values[0] != values[1] else [])
 
 
