@@ -94,7 +94,7 @@ CASES = {
     "negative density": ("csd", swap(SOLID, '"7.8 g/cm^3"', '"-7.8 g/cm^3"'), r"density", {}),
     "unknown library name": ("csd", re.sub(r'(?s)kind = "j2".*', 'library = "copper OFHK"\n', SOLID), r'did you mean "copper OFHC"', {}),
     "rate law twice": ("csd", re.sub(r'(?s)kind = "j2".*', 'library = "copper OFHC"\nrate = {kind = "cowper_symonds", rate = 40, exponent = 5}\n', SOLID), r"rate", {}),
-    "melts at room temperature": ("csd", re.sub(r'(?s)kind = "j2".*', 'library = "copper OFHC"\nflow = {melting_temperature = "20 degC"}\n', SOLID),
+    "melts at room temperature": ("csd", re.sub(r'(?s)kind = "j2".*', 'library = "copper OFHC"\nflow = {melting_temperature = "10 degC"}\n', SOLID),
                                   r"melting_temperature", {}),
     "negative density, fluid": ("cfd", swap(FLUID, "density = 1.225", "density = -1.225"), r"density", {}),
     "no explosive to burn": ("cfd", FLUID + BURN, r"TNT", {}),
