@@ -86,7 +86,7 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
     s.f[n] = (s.m[n] / before) * s.f[n];
     if (ph.loads) ph.loads->forces()[n] = (s.m[n] / before) * ph.loads->forces()[n];
   }
-  for (auto& kind : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, kind);
+  for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);
   ph.time_step.renew();
   if (ph.filter) {
     ph.filter->renew(ph.elements, s);

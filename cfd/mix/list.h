@@ -26,7 +26,11 @@ auto pairs(std::variant<A, Rest...>*) {
 using Mixture = std::remove_pointer_t<decltype(detail::pairs<EosChoice>(static_cast<EosChoice*>(nullptr)))>;
 
 inline Mixture make_mixture(const EosChoice& first, const EosChoice& second) {
-  return std::visit([](const auto& a, const auto& b) -> Mixture { return FiveEquation{a, b}; }, first, second);
+  return std::visit(
+      []<class A, class B>(const A& a, const B& b) -> Mixture {
+        return FiveEquation<A, B>{a, b};
+      },
+      first, second);
 }
 inline Closure closure(const Mixture& m) {
   return std::visit([](const auto& pair) { return pair.closure(); }, m);

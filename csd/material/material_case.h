@@ -82,7 +82,7 @@ struct Overrides {
     const auto read = [&]<class T>(std::type_identity<T>) {
       if (word != T::name) return;
       if constexpr (std::is_same_v<T, MieGruneisen>) {
-        if (!std::holds_alternative<T>(value)) value = hugoniot;
+        if (!std::holds_alternative<T>(value)) value.template emplace<T>(T(hugoniot));
       } else if (!std::holds_alternative<T>(value)) {
         return value.template emplace<T>().describe(keys);
       }
