@@ -16,6 +16,8 @@ Ranks::Ranks(const Comm& comm, const Mesh& mesh, Blocks& blocks) : comm_(comm) {
       comm.gather_all(comm.root() ? assign_blocks(mesh, blocks, comm.size()) : std::vector<int32_t>{});
   find_border(mesh, blocks, rank);
   divide(mesh, blocks, rank);
+  State all_nodes;  // what a state follows that isn't told otherwise
+  follow_all(all_nodes);
 }
 
 void Ranks::divide(const Mesh& mesh, Blocks& b, const std::vector<int32_t>& rank) {
