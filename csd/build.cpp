@@ -22,6 +22,7 @@ Mesh build_mesh(const SolidCase& cs) {
     parts.push_back(make_mesh(body.mesh, quality));
     names.push_back(body.name);
     say("body {}: {}", body.name, summary(quality));
+    for (const std::string& line : quality_report(quality)) say("  {}", line);
     for (const std::string& note : quality.notes) say("  {}", note);
   }
   Mesh mesh = merge(std::move(parts), names);
@@ -35,6 +36,9 @@ void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
     for (NodeId n : mesh.hex[ElemId(e)])
       s.v[n] = body.velocity + (body.motion ? body.motion->velocity(s.x[n]) : Vec3{});
   }
+  for (const InitialVelocityCase& region : cs.velocities)
+    for (NodeId n : node_set(mesh, region.nodes, region.place))
+      s.v[n] = region.velocity + (region.motion ? region.motion->velocity(s.x[n]) : Vec3{});
 }
 
 Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, State& s) {
@@ -58,6 +62,8 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   }
   for (const ConditionCase& condition : cs.conditions) ph.conditions.push_back(condition.kind);
   for (auto& condition : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, condition);
+  if (cs.relaxation) ph.relaxation.emplace(*cs.relaxation, s.x.size());
+  if (cs.mass_scaling) ph.mass_scaling.emplace(*cs.mass_scaling, s);
   if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t);
   return ph;
 }
@@ -70,7 +76,9 @@ Model build(const Case& cs, const Comm& comm) {
   State s;
   Physics ph = build_physics(cs.solid, mesh, comm, s);
   set_initial_velocities(cs.solid, mesh, s);
-  if (ph.elements.ranks) ph.elements.ranks->follow(nodes_needed_everywhere(mesh, cs.solid.loads, ph.conditions), s);
+  // dynamic relaxation and mass scaling look at all nodes in each step
+  if (ph.elements.ranks && !ph.relaxation && !ph.mass_scaling)
+    ph.elements.ranks->follow(nodes_needed_everywhere(mesh, cs.solid.loads, ph.conditions), s);
   Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
   first_forces(model);
   if (const auto& ranks = model.physics.elements.ranks) ranks->complete(model.state);

@@ -10,9 +10,13 @@
 #include "coupling/case.h"
 #include "csd/element/elements.h"
 #include "csd/element/filter.h"
+#include "csd/energy.h"
 #include "csd/fracture/fracture.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/list.h"
+#include "csd/load/mass_scaling.h"
+#include "csd/load/relaxation.h"
+#include "csd/load/sets.h"
 #include "csd/material/material_case.h"
 #include "csd/mesh/input.h"
 #include "csd/probe.h"
@@ -79,6 +83,20 @@ struct ViscosityCase : BulkViscosity {
   }
 };
 
+/// [[solid.velocity]]
+struct InitialVelocityCase {
+  std::string nodes, place;
+  Vec3 velocity{};
+  std::optional<MotionCase> motion;
+  template <class K>
+  void describe(K& k) {
+    k.required("nodes", nodes, "name of the node set, of a region for example (mesh.sets)");
+    k.optional("velocity", velocity, dim::velocity, "initial velocity");
+    k.table("motion", motion, "further initial velocity: spin and expansion");
+    if (!k.is_manual()) place = k.where("nodes");
+  }
+};
+
 /// [solid.wet]
 struct WetCase {
   std::vector<std::string> faces;
@@ -98,10 +116,14 @@ struct SolidCase {
   std::vector<BodyCase> bodies;
   FilterCase filter;
   ViscosityCase viscosity;
+  EnergyCase energy;
   TimeStepCase time_step;
   std::optional<FractureInput> fracture;
+  std::vector<InitialVelocityCase> velocities;
   std::vector<LoadCase> loads;
   std::vector<ConditionCase> conditions;
+  std::optional<RelaxationCase> relaxation;
+  std::optional<MassScalingCase> mass_scaling;
   std::vector<ProbeCase> probes;
   WetCase wet;
   template <class K>
@@ -115,10 +137,14 @@ struct SolidCase {
     k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
     k.table("filter", filter, "pressure filter");
     k.table("viscosity", viscosity, "bulk viscosity; off unless given");
+    k.table("energy", energy, "what happens when energy goes missing");
     k.table("time_step", time_step, "choice of the time step");
     k.table("fracture", fracture, "cracks by splitting nodes; absent: none");
+    k.tables("velocity", velocities, "initial velocity of a region, in place of its body's");
     k.tables("load", loads, "a load");
     k.tables("condition", conditions, "a condition on nodes");
+    k.table("static", relaxation, "to the static solution by dynamic relaxation; absent: the run is dynamic");
+    k.table("mass_scaling", mass_scaling, "more mass for elements with short steps; absent: none");
     k.tables("probe", probes, "columns of solid_history.csv");
     k.table("wet", wet, "the surface that touches the fluid");
   }

@@ -87,6 +87,7 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
     if (ph.loads) ph.loads->forces()[n] = (s.m[n] / before) * ph.loads->forces()[n];
   }
   for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);
+  if (ph.relaxation) ph.relaxation->select(s.x.size());
   ph.time_step.renew();
   if (ph.filter) {
     ph.filter->renew(ph.elements, s);

@@ -16,16 +16,19 @@
 namespace bw::csd {
 namespace {
 
-std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, bool heats) {
+std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, bool heats, bool is_static) {
   std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}, {"dt_stable", "s"}};
   for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy",
-                           "viscous_work", "external_work", "condition_work", "crack_energy", "energy_residual"})
+                           "viscous_work", "external_work", "condition_work", "contact_work", "spring_work",
+                           "damping_work", "crack_energy", "mass_scaling_energy", "energy_residual"})
     c.push_back({name, "J"});
   c.push_back({"mass", "kg"});
+  c.push_back({"added_mass", "kg"});
   for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
   for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"})
     c.push_back({name, "1"});
   if (heats) c.push_back({"heat", "J"}), c.push_back({"temperature_max", "K"});
+  if (is_static) c.push_back({"static_imbalance", "1"}), c.push_back({"relaxation_rate", "1/s"});
   for (ProbeCase& probe : probes)
     std::visit(
         [&](const auto& p) {
@@ -62,13 +65,14 @@ Output::Output(const Case& cs, const Model& model, double t_end)
       series_(cs.run.output.directory, "solid"),
       fields_(cs.run.output.fields_every, Schedule::Zero::never),
       rows_(cs.run.output.history_every, Schedule::Zero::every_step),
+      watch_(cs.solid.energy),
       progress_(t_end, cs.run.time.max_steps),
       start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
   if (writes(model))
     history_.emplace(cs.run.output.directory + "/solid_history.csv",
-                     history_columns(probes_, any_heats(model.physics.elements)));
+                     history_columns(probes_, any_heats(model.physics.elements), model.physics.relaxation.has_value()));
 }
 
 double Output::next_time(double t) const {
@@ -97,6 +101,7 @@ void Output::write_row(Model& m) {
   complete(m);
   energy_ = energy_row(m.physics, s);
   mass_ = mass_of(s), momentum_ = momentum_of(s);
+  const double chi = checkerboard(m.physics.elements, s);
   std::vector<double> row{s.t,
                           double(s.step),
                           s.dt,
@@ -109,22 +114,33 @@ void Output::write_row(Model& m) {
                           energy_.viscosity,
                           energy_.external,
                           energy_.conditions,
+                          energy_.contact,
+                          energy_.springs,
+                          energy_.damping,
                           energy_.cracks,
+                          energy_.mass_scaling,
                           energy_.residual,
                           mass_,
+                          m.physics.mass_scaling ? m.physics.mass_scaling->added_mass() : 0,
                           momentum_.x,
                           momentum_.y,
                           momentum_.z,
                           energy_.eqps_max,
-                          checkerboard(m.physics.elements, s),
+                          chi,
                           collapsed_ = collapsed_elements(m),
                           double(m.mesh.node_count())};
   auto& cracks = m.physics.cracks;
   row.push_back(cracks ? double(cracks->opened_faces()) : 0);
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
   if (any_heats(m.physics.elements)) row.push_back(energy_.heat), row.push_back(energy_.temperature_max);
+  if (const auto& relaxation = m.physics.relaxation)
+    row.push_back(static_imbalance(m.physics)), row.push_back(relaxation->rate());
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.values(m.mesh, s, m.physics, row); }, probe.kind);
   if (history_) history_->row(row);
+  if (checkerboard_.warns(chi, s.step))
+    warn("the checkerboard of the volumes grows: indicator {:.2f} at step {}, t = {:.6g} s; a weaker filter, or none",
+         checkerboard_.mean(), s.step, s.t);
+  watch_.check(energy_, m);
 }
 
 std::string Output::write_fields(Model& m) {
@@ -201,6 +217,7 @@ double Output::rate() const {
 
 void Output::tick(const Model& m) {
   element_steps_ += m.mesh.elem_count();
+  watch_.tick(m);
   progress_.tick(m.state.step, m.state.t, [&] {
     const double scale =
         std::fmax(std::fabs(energy_.kinetic) + energy_.elastic + energy_.plastic + std::fabs(energy_.external), 1e-300);
@@ -225,11 +242,15 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.ranks = ranks ? ranks->comm().size() : 1;
   sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
   sum.rates = {{"elements_per_second", loop_rate}};
-  sum.energies = {{"kinetic", energy_.kinetic},   {"elastic", energy_.elastic},       {"plastic", energy_.plastic},
-                  {"filter", energy_.filter},     {"collapse", energy_.collapse},     {"viscosity", energy_.viscosity},
-                  {"external", energy_.external}, {"conditions", energy_.conditions}, {"cracks", energy_.cracks},
-                  {"residual", energy_.residual}};
+  sum.energies = {{"kinetic", energy_.kinetic},           {"elastic", energy_.elastic},
+                  {"plastic", energy_.plastic},           {"filter", energy_.filter},
+                  {"collapse", energy_.collapse},         {"viscosity", energy_.viscosity},
+                  {"external", energy_.external},         {"conditions", energy_.conditions},
+                  {"contact", energy_.contact},           {"springs", energy_.springs},
+                  {"damping", energy_.damping},           {"cracks", energy_.cracks},
+                  {"mass_scaling", energy_.mass_scaling}, {"residual", energy_.residual}};
   sum.masses = {{"solid", mass_}};
+  if (m.physics.mass_scaling) sum.masses.emplace_back("added", m.physics.mass_scaling->added_mass());
   sum.momenta = {{"x", momentum_.x}, {"y", momentum_.y}, {"z", momentum_.z}};
   sum.counts = {{"elements", double(m.mesh.elem_count())},
                 {"nodes", double(m.mesh.node_count())},
@@ -239,11 +260,15 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
   }
-  sum.values = {{"dt", m.state.dt}, {"dt_stable", m.state.dt_stable}, {"eqps_max", energy_.eqps_max}};
+  sum.values = {{"energy_residual_part", watch_.worst()},
+                {"dt", m.state.dt},
+                {"dt_stable", m.state.dt_stable},
+                {"eqps_max", energy_.eqps_max}};
   if (any_heats(m.physics.elements)) {
     sum.energies.emplace_back("heat", energy_.heat);
     sum.values.emplace_back("temperature_max", energy_.temperature_max);
   }
+  if (m.physics.relaxation) sum.values.emplace_back("static_imbalance", static_imbalance(m.physics));
   if (ranks && !failed)
     sum.values.emplace_back("exchange_share",
                             ranks->comm().sum(timers().seconds("exchange") / timers().wall()) / sum.ranks);

@@ -9,6 +9,8 @@
 #include "common/io/csv.h"
 #include "common/io/vtkhdf.h"
 #include "csd/case.h"
+#include "csd/checkerboard_watch.h"
+#include "csd/energy_watch.h"
 #include "csd/model.h"
 
 namespace bw::csd {
@@ -44,6 +46,8 @@ class Output {
   Schedule fields_, rows_;
   Progress progress_;
   EnergyRow energy_;  // of the last row
+  EnergyWatch watch_;
+  CheckerboardWatch checkerboard_;
   double mass_ = 0, collapsed_ = 0;
   Vec3 momentum_;
   std::string last_dump_;

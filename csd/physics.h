@@ -11,6 +11,8 @@
 #include "csd/energy.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/loads.h"
+#include "csd/load/mass_scaling.h"
+#include "csd/load/relaxation.h"
 
 namespace bw::csd {
 
@@ -22,6 +24,8 @@ struct Physics {
   std::optional<PressureFilter> filter;
   std::optional<Loads> loads;
   std::vector<ConditionKind> conditions;
+  std::optional<Relaxation> relaxation;
+  std::optional<MassScaling> mass_scaling;
   std::optional<Cracks> cracks;
   EnergyBooks energy;
 };

@@ -36,7 +36,11 @@ namespace {
 /// The step that the case asks for at the present state.
 double wanted_dt(const Case& cs, Model& m, const Output& out) {
   const TimeStepCase& how = cs.solid.time_step;
-  m.state.dt_stable = m.physics.time_step.stable(m.physics.elements, m.state);
+  m.state.dt_stable = stable_step(m);
+  if (auto& scaling = m.physics.mass_scaling; scaling && !m.physics.time_step.inverted()) {
+    scaling->enforce(m.mesh, m.physics.elements, m.physics.time_step, how.safety, m.state.dt_stable, m.state);
+    m.state.dt_stable = stable_step(m);
+  }
   if (const auto slot = m.physics.time_step.inverted()) fail(m, *slot, out.last_dump());
   const double dt = how.fixed > 0 ? how.fixed : how.safety * m.state.dt_stable;
   return how.maximum > 0 ? std::fmin(dt, how.maximum) : dt;
@@ -44,6 +48,16 @@ double wanted_dt(const Case& cs, Model& m, const Output& out) {
 
 /// Not so far that the step could not grow meanwhile, and without slivers.
 double target(double t, double next, double dt) { return next - t < 200 * dt ? next : t + 100 * dt; }
+
+/// A run to static has arrived. Looked at now and then: the stored energy costs about a step.
+bool is_at_rest(const Model& m) {
+  const auto& relaxation = m.physics.relaxation;
+  if (!relaxation || m.state.step % 20 != 0 || m.state.t < relaxation->input().loads_until) return false;
+  const double tolerance = relaxation->input().tolerance;
+  if (static_imbalance(m.physics) > tolerance) return false;
+  const EnergyRow energy = energy_row(m.physics, m.state);
+  return energy.kinetic <= tolerance * (energy.elastic + energy.plastic);
+}
 
 }  // namespace
 
@@ -60,11 +74,12 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
     say("{} elements in {} colours, {}{} threads, first step {:.4g} s", m.mesh.elem_count(), el.blocks.colours.size(),
         el.ranks ? el.ranks->shares() : "", thread_count(), dt);
     out.write_due(m);
-    while (m.state.t < t_end && steps_left() && !(coupled && coupled->stop_asked())) {
+    bool at_rest = false;
+    while (m.state.t < t_end && !at_rest && steps_left() && !(coupled && coupled->stop_asked())) {
       const double t_next = out.next_time(m.state.t);
       const double t_target = coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
       coupling::EqualSubsteps sub(m.state.t, t_target);
-      while (!sub.done() && (coupled || steps_left())) {
+      while (!sub.done() && !at_rest && (coupled || steps_left())) {
         const double h = sub.next(dt);
         if (coupled) coupled->before_step(m);
         step(m, h);
@@ -73,22 +88,28 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
         dt = wanted_dt(cs, m, out);
         out.write_due(m);
         out.tick(m);
+        at_rest = is_at_rest(m);
       }
       if (coupled) coupled->end_window(m);
     }
-    if (m.state.t < t_end) status = coupled && coupled->stop_asked() ? "stopped by peer" : "max_steps";
+    if (m.physics.relaxation)
+      status = at_rest ? "converged" : "not converged";
+    else if (m.state.t < t_end)
+      status = coupled && coupled->stop_asked() ? "stopped by peer" : "max_steps";
     if (coupled) coupled->finish();
   } catch (const PhysicsError& e) {
     out.finish(m, "failed", e.what());
     throw;
   }
+  if (status == "not converged")
+    warn("no static solution yet: forces out of balance are {:.2g} of the loads", static_imbalance(m.physics));
   out.finish(m, status, "");
   return exit_ok;
 }
 
 void check(const Case& cs, Model& m) {
   const TimeStepCase& how = cs.solid.time_step;
-  const double stable = m.physics.time_step.stable(m.physics.elements, m.state);
+  const double stable = stable_step(m);
   double dt = how.fixed > 0 ? how.fixed : how.safety * stable;
   if (how.maximum > 0) dt = std::fmin(dt, how.maximum);
   const double steps = cs.run.time.end / dt, elements = m.mesh.elem_count();

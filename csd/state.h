@@ -25,7 +25,8 @@ struct State {
   Field<double, SlotId> V0;              ///< m^3, reference volume
   Field<double, SlotId> volume;          ///< m^3, current
   Field<double, SlotId> omega2;          ///< 1/s^2, centroid part of the bound on the largest eigenfrequency squared
-  Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress
+  Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress; empty without viscosity
+  Field<double, SlotId> viscous_time;    ///< s, its viscosity over the stiffness; empty without viscosity
   Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
   std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes], of this rank's blocks
 
@@ -38,7 +39,7 @@ struct State {
       parallel_for(int64_t(followed.size()), [&](int64_t i) { work(NodeId(followed[size_t(i)])); });
   }
 
-  enum Use { none = 0, output = 1 };
+  enum Use { none = 0, output = 1, on_demand = 2 };  ///< on_demand: sized by the module that uses it
   /// visit(name, field, unit, use) for every field; Field<T, NodeId> are nodal, Field<T, SlotId> per element.
   template <class Visit>
   void describe(Visit&& visit) {
@@ -49,12 +50,15 @@ struct State {
     visit("reference_volume", V0, "m^3", none);
     visit("volume", volume, "m^3", none);
     visit("omega2", omega2, "1/s^2", none);
-    visit("viscous_stress", viscous_stress, "Pa", none);
+    visit("viscous_stress", viscous_stress, "Pa", on_demand);
+    visit("viscous_time", viscous_time, "s", on_demand);
     visit("collapsed", collapsed, "", output);
   }
   /// Makes room: nodal fields n, element fields slots.
   void resize(size_t nodes, size_t slots) {
-    describe([&](const char*, auto& field, const char*, Use) { field.resize(is_nodal(field) ? nodes : slots); });
+    describe([&](const char*, auto& field, const char*, Use use) {
+      if (use != on_demand) field.resize(is_nodal(field) ? nodes : slots);
+    });
   }
   /// Every nodal field gets the parent's value at its end, split by split. Masses must then be summed anew.
   void append_copies(std::span<const NodeSplit> splits) {

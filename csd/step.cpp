@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/step.h"
 
+#include <cmath>
+#include <initializer_list>
+
 #include "csd/motion.h"
 
 namespace bw::csd {
@@ -16,15 +19,32 @@ void sum_forces(Model& m, double t, double dt) {
   if (ph.loads) ph.loads->add(mesh, t, s);                                  // eqs (15), (18)
 }
 
+/// Whose turn a condition is: ties hand forces on before the others take theirs, drag acts on what these leave.
+template <class C>
+constexpr int turn(const C&) {
+  return requires { C::is_tie; }
+  ? 0 : requires { C::is_last; }
+  ? 2 : 1;
+}
+template <class Work>
+void for_conditions(Model& m, std::initializer_list<int> turns, const Work& work) {
+  for (const int now : turns)
+    for (auto& kind : m.physics.conditions)
+      std::visit(
+          [&](auto& c) {
+            if (turn(c) == now) work(c);
+          },
+          kind);
+}
 void on_force(Model& m, double dt) {
-  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.on_force(m.state, dt); }, kind);
+  for_conditions(m, {0, 1, 2}, [&](auto& c) { c.on_force(m.state, dt); });
+  if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
 }
 void before_drift(Model& m, double dt) {
-  for (auto& kind : m.physics.conditions)
-    std::visit([&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); }, kind);
+  for_conditions(m, {1, 2, 0}, [&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); });
 }
 void after_kick(Model& m, double dt) {
-  for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.after_kick(m.state, dt); }, kind);
+  for_conditions(m, {1, 2, 0}, [&](auto& c) { c.after_kick(m.state, dt); });
 }
 /// Half a step's work of the loads, at the step's velocities.
 void book_half_work(Model& m, double dt) {
@@ -40,6 +60,10 @@ void first_forces(Model& m) {
 
 void step(Model& m, double dt) {
   auto& s = m.state;
+  if (dt != s.dt) {  // the product form v^(n-1/2) v^(n+1/2) is conserved by steps of one length: book its jump
+    if (const auto& ranks = m.physics.elements.ranks) ranks->complete(s);
+    m.physics.energy.initial -= kinetic_product(s, s.dt) - kinetic_product(s, dt);
+  }
   kick(s, 0.5 * dt);  // eq (14)
   before_drift(m, dt);
   book_half_work(m, dt);
@@ -53,8 +77,22 @@ void step(Model& m, double dt) {
   if (m.physics.cracks) m.physics.cracks->advance(m);  // sec. 3, eq (16)
 }
 
+double stable_step(Model& m) {
+  auto& [mesh, topology, s, ph] = m;
+  const double elements = ph.time_step.stable(ph.elements, s);
+  double omega2 = 0;  // of springs: frequencies of sums of stiffnesses are at most sums of squares
+  for (const auto& kind : ph.conditions)
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { c.omega2(s); }) omega2 += c.omega2(s);
+        },
+        kind);
+  return omega2 > 0 ? 2 / std::sqrt(4 / (elements * elements) + omega2) : elements;
+}
+
 void change_given_forces(Model& m, std::vector<std::pair<Face, Vec3>> forces) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.give_back(m.state); }, kind);
+  if (m.physics.relaxation) m.physics.relaxation->reaction.give_back(m.state);
   m.physics.loads->replace_given(m.mesh, std::move(forces), m.state);
   on_force(m, 0);
 }

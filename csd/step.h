@@ -11,6 +11,8 @@ namespace bw::csd {
 void first_forces(Model& model);
 /// One step of central differences, to t + dt.
 void step(Model& model, double dt);
+/// Bound of the stable step of elements and conditions at the present state [s].
+double stable_step(Model& model);
 /// Forces [N] from outside on faces, from now on. Those at the state's time are exchanged too, so that each step of the
 /// coming window has them from its start to its end.
 void change_given_forces(Model& model, std::vector<std::pair<Face, Vec3>> forces);

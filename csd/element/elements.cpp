@@ -41,13 +41,6 @@ struct Viscous {
   return {stress, eta / m.volumetric.stiffness(volume / V0)};
 }
 
-/// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta
-/// omega/2: the omega^2 of an undamped element with the same limit.
-Pack damped_omega2(Pack omega2, Pack beta) {
-  const Pack xi = Pack(0.5) * beta * sqrt(omega2), grown = sqrt(Pack(1) + xi * xi) + xi;
-  return omega2 * grown * grown;
-}
-
 /// Forces of one block, none if it rests; returns the work spent in viscosity.
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
@@ -70,9 +63,10 @@ template <class M, class Mean>
     else
       scatter_add(r.f, nodes + l, count, s.f.data());
     const Pack J_bar = r.volume / V0;
-    Pack omega2 = centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
+    const Pack omega2 =
+        centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
     if constexpr (Mean::viscous) {
-      omega2 = damped_omega2(omega2, viscous.beta);
+      viscous.beta.store(&s.viscous_time[slot]);
       const Pack mean = Pack(0.5) * (viscous.stress + Pack::load(&s.viscous_stress[slot]));
       const Pack change = mean * (r.volume - Pack::load(&s.volume[slot]));
       for (int i = 0; i < std::min(used - l, Pack::size); ++i) work += change[i];
@@ -164,6 +158,8 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
 double internal_force(const Elements& el, const MeanStress& how, State& s, const Reference* reference) {
   s.for_nodes([&](NodeId n) { s.f[n] = {}; });
   if (reference && !reference->resting.any()) reference = nullptr;
+  if (how.viscosity.on() && s.viscous_stress.size() == 0)
+    s.viscous_stress.resize(s.V0.size()), s.viscous_time.resize(s.V0.size());
   const double work = how.viscosity.on() ? all_forces(el, how, WithViscosity{how, s.volume}, reference, s)
                                          : all_forces(el, how, Plain{how.given}, reference, s);
   if (reference) reference->resting.book();
@@ -227,7 +223,8 @@ void start(const Mesh& mesh, Elements& el, State& s) {
   const double density =
       std::visit([](const auto& material) { return material.density; }, el.materials[size_t(mesh.body[e])]);
   std::array<double, 8> mass = row_sums(corners(mesh, e));
-  for (double& m : mass) m *= density;
+  const double factor = el.mass_factor.empty() ? density : density * el.mass_factor[size_t(e)];
+  for (double& m : mass) m *= factor;
   return mass;
 }
 

@@ -17,6 +17,7 @@ namespace bw::csd {
 struct Elements {
   Blocks blocks;
   std::vector<Materials> materials;  ///< [body]
+  std::vector<double> mass_factor;   ///< [element] of mass scaling; empty: 1
 
   int body_of(SlotId slot) const;
 

@@ -5,6 +5,7 @@
 
 #include "common/parallel/loop.h"
 #include "csd/element/lanes.h"
+#include "csd/element/results.h"
 
 namespace bw::csd {
 namespace {
@@ -42,6 +43,13 @@ void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>&
   el.finish_sum(sum);
 }
 
+/// work(slot) for all slots of this rank's blocks.
+template <class Work>
+void for_slots(const Elements& el, const Work& work) {
+  for_blocks(el.blocks, [&](int block, int) {
+    for (int l = 0; l < lanes; ++l) work(SlotId(block * lanes + l));
+  });
+}
 const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
   return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; },
                     el.materials[size_t(el.body_of(slot))]);
@@ -50,7 +58,7 @@ const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
 }  // namespace
 
 PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const State& s)
-    : self_adjoint_(cs.kind == "self_adjoint"), strength_(cs.strength) {
+    : case_(cs), self_adjoint_(cs.kind == "self_adjoint"), strength_(cs.strength) {
   const size_t slots = size_t(el.blocks.slot_count());
   J_.resize(slots), theta_.resize(slots), stress_.resize(slots);
   renew(el, s);
@@ -61,6 +69,11 @@ void PressureFilter::renew(const Elements& el, const State& s) {
   sum_.resize(s.x.size());
   nodal_sums(el, s, s.V0, sum_);
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
+}
+
+void PressureFilter::mean(const Elements& el, const State& s, const Field<double, SlotId>& a,
+                          Field<double, SlotId>& out) {
+  average(el, s, a, 1, out);
 }
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
@@ -85,7 +98,9 @@ void PressureFilter::average(const Elements& el, const State& s, const Field<dou
 const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const State& s) {
   sigma_.resize(J_.size());
   volume_ratios(el, s, J_);
-  if (self_adjoint_) {
+  if (case_.gate != "none") {
+    smooth_gated(el, s);
+  } else if (self_adjoint_) {
     average(el, s, J_, strength_, theta_);
     mean_stresses(el, theta_, stress_);
     average(el, s, stress_, strength_, sigma_);
@@ -95,6 +110,49 @@ const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const St
     book_work(el, s);
   }
   return sigma_;
+}
+
+void PressureFilter::renew_gate(const Elements& el, const State& s) {
+  const size_t slots = J_.size();
+  const bool first = gate_.size() == 0;
+  gate_.resize(slots), mean_.resize(slots), rough_.resize(slots), eqps_.resize(slots);
+  if (case_.gate != "plastic") {
+    mean_stresses(el, J_, stress_);
+    mean(el, s, stress_, mean_);
+    for_slots(el, [&](SlotId i) { rough_[i] = stress_[i] - mean_[i]; });
+    mean(el, s, rough_, theta_);
+  }
+  for_slots(el, [&](SlotId slot) {
+    bool acts = !first;
+    if (case_.gate != "plastic") {
+      const double size = std::abs(rough_[slot]), floor = 1e-4 * volumetric_of(el, slot).kappa;
+      acts = acts && size > case_.threshold * (std::abs(mean_[slot]) + floor) && std::abs(theta_[slot]) < 0.5 * size;
+    }
+    if (case_.gate != "checkerboard") {
+      const double eqps = mean_eqps(el, s, slot);
+      acts = acts && eqps > eqps_[slot];
+      eqps_[slot] = eqps;
+    }
+    gate_[slot] = acts;
+  });
+}
+
+void PressureFilter::smooth_gated(const Elements& el, const State& s) {
+  renew_gate(el, s);
+  if (!self_adjoint_) {
+    mean_stresses(el, J_, stress_);
+    mean(el, s, stress_, mean_);
+    for_slots(el, [&](SlotId i) { sigma_[i] = stress_[i] + strength_ * gate_[i] * (mean_[i] - stress_[i]); });
+    return book_work(el, s);
+  }
+  mean(el, s, J_, mean_);
+  for_slots(el, [&](SlotId i) { theta_[i] = J_[i] + strength_ * gate_[i] * (mean_[i] - J_[i]); });
+  mean_stresses(el, theta_, stress_);
+  for_slots(el, [&](SlotId i) { rough_[i] = gate_[i] * stress_[i]; });
+  mean(el, s, rough_, mean_);
+  for_slots(el, [&](SlotId i) { sigma_[i] = stress_[i] + strength_ * (mean_[i] - rough_[i]); });
+  mean_stresses(el, J_, stress_);
+  book_work(el, s);
 }
 
 void PressureFilter::book_work(const Elements& el, const State& s) {
@@ -109,7 +167,7 @@ void PressureFilter::book_work(const Elements& el, const State& s) {
 }
 
 double PressureFilter::energy(const Elements& el, const State& s) const {
-  if (!self_adjoint_ || !sigma_.size()) return work_;
+  if (!self_adjoint_ || case_.gate != "none" || !sigma_.size()) return work_;
   return sum_elements(el, [&](SlotId slot) {
     const Volumetric& U = volumetric_of(el, slot);
     return s.V0[slot] * (U.energy(theta_[slot]) - U.energy(J_[slot]));
@@ -117,7 +175,7 @@ double PressureFilter::energy(const Elements& el, const State& s) const {
 }
 
 double checkerboard(const Elements& el, const State& s) {
-  PressureFilter whole(FilterCase{"plain", 1.0}, el, s);
+  PressureFilter whole(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
   volume_ratios(el, s, whole.J_);
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);

@@ -4,11 +4,14 @@
 // product; never across a crack (its nodes are doubled). A_b = (1 - strength) + strength A.
 //   plain         sigma_m = A_b U'(J)
 //   self_adjoint  sigma_m = A_b U'(A_b J): the derivative of sum V U(A_b J), so energy and momentum stay exact
+// Gated, with g = 0 or 1 per element: A_b J = J + strength g (A J - J), and its adjoint. A gate that switches takes
+// energy out or in, so then the work of what the filter changes is booked, as for the plain one.
 // The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one it would be a
 // diffusion.
 #pragma once
 #include <string>
 
+#include "common/math/units.h"
 #include "csd/element/elements.h"
 
 namespace bw::csd {
@@ -16,6 +19,9 @@ namespace bw::csd {
 struct FilterCase {
   std::string kind = "off";
   double strength = 0.5;
+  std::string gate = "none";
+  double threshold = 0.1;
+  bool beyond = false;
   template <class K>
   void describe(K& k) {
     k.choice("kind", kind, {"off", "plain", "self_adjoint"},
@@ -24,7 +30,15 @@ struct FilterCase {
              "energy, so that energy is conserved");
     k.optional("strength", strength, dim::none,
                "weight of the smoothed part, at most 0.5: beyond, checkerboard volumes lose their stiffness");
-    k.expect(strength > 0 && strength <= 0.5, "strength", "a number in (0, 0.5]");
+    k.choice(
+        "gate", gate, {"none", "checkerboard", "plastic", "both"},
+        "where the filter acts. none: everywhere; checkerboard: where the mean stress p leaves its neighbours' mean "
+        "Ap by more than `threshold` and to the other side than they do, so not in smooth fields and fronts; "
+        "plastic: where the material flowed in the last step; both: where both hold");
+    k.optional("threshold", threshold, dim::none, "of |p - Ap| / (|Ap| + 1e-4 bulk modulus)");
+    k.optional("beyond", beyond, "allows a strength up to 1, to see what it does");
+    k.expect(strength > 0 && strength <= (beyond ? 1.0 : 0.5), "strength", "a number in (0, 0.5]");
+    k.expect(threshold >= 0, "threshold", "a number >= 0");
   }
 };
 
@@ -43,17 +57,22 @@ class PressureFilter {
   void renew(const Elements& elements, const State& s);
 
  private:
+  void renew_gate(const Elements& elements, const State& s);
+  void smooth_gated(const Elements& elements, const State& s);
+  void mean(const Elements& elements, const State& s, const Field<double, SlotId>& a, Field<double, SlotId>& out);
   void average(const Elements& elements, const State& s, const Field<double, SlotId>& a, double strength,
                Field<double, SlotId>& out);
   void book_work(const Elements& elements, const State& s);
 
+  FilterCase case_;
   bool self_adjoint_;
   double strength_;
   Field<double, NodeId> share_;  // 1/m^3: an eighth over the volume of a node's elements
   Field<double, NodeId> sum_;    // work space
   Field<double, SlotId> J_, theta_, stress_, sigma_;
-  Field<double, SlotId> change_, volume_;  // plain: sigma_m - U' and volume of the last call
-  double work_ = 0;
+  Field<double, SlotId> change_, volume_;             // plain: sigma_m - U' and volume of the last call
+  Field<double, SlotId> gate_, eqps_, mean_, rough_;  // gated: 0 or 1; of the last step; work space
+  double work_ = 0;                                   // J
   friend double checkerboard(const Elements&, const State&);
 };
 

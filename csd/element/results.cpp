@@ -79,6 +79,23 @@ ElementResult evaluate(const Elements& el, const State& s, SlotId slot, const Fi
       el.materials[size_t(body)]);
 }
 
+Corners<double> element_force(const Elements& el, const State& s, SlotId slot) {
+  const int body = el.body_of(slot);
+  return std::visit(
+      [&]<class M>(const M& material) {
+        // what has flowed is in the history, so the stress is elastic in it
+        NeoHooke elastic;
+        static_cast<Elastic&>(elastic) = material;
+        double A[8 * NeoHooke::components * lanes];
+        const double* history = history_of<M>(el, s, body, slot);
+        for (int i = 0; i < 8; ++i)
+          store_sym(A + i * NeoHooke::components * lanes, load_sym<double>(history + i * M::components * lanes));
+        const auto mean_stress = [&](double J_bar) { return material.volumetric.mean_stress(J_bar); };
+        return internal_force<double>(elastic, corners_at(el, s, slot), s.V0[slot], A, mean_stress, 0).f;
+      },
+      el.materials[size_t(body)]);
+}
+
 StoredEnergy stored_energy(const Elements& el, const State& s) {
   return reduce_elements(
       el, StoredEnergy{},

@@ -2,6 +2,7 @@
 // What elements bear and store, evaluated on demand from positions and history (nothing is committed).
 #pragma once
 #include "csd/element/elements.h"
+#include "csd/element/hex.h"
 
 namespace bw::csd {
 
@@ -23,6 +24,9 @@ double von_mises(const Sym3& sigma);
 /// sigma_m of the elements as in the last internal_force: null for U'(v/V) of the material.
 ElementResult evaluate(const Elements& elements, const State& s, SlotId slot,
                        const Field<double, SlotId>* sigma_m = nullptr);
+
+/// Nodal forces of an element [N] at U'(v/V), without filter and viscosity.
+Corners<double> element_force(const Elements& elements, const State& s, SlotId slot);
 
 struct StoredEnergy {
   double elastic = 0, plastic = 0, heat = 0, collapse = 0;

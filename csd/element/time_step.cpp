@@ -57,6 +57,18 @@ template <class M>
   }
 }
 
+/// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta
+/// omega/2: the omega^2 of an undamped element with the same limit.
+[[gnu::noinline]] Pack damped_omega2(Pack omega2, Pack beta) {
+  const Pack xi = Pack(0.5) * beta * sqrt(omega2), grown = sqrt(Pack(1) + xi * xi) + xi;
+  return omega2 * grown * grown;
+}
+/// Bounds of a pack of elements.
+Pack omega2_of(const State& s, const Field<double, SlotId>& distortion, SlotId first) {
+  const Pack omega2 = Pack::load(&s.omega2[first]) * Pack::load(&distortion[first]);
+  return s.viscous_time.size() > 0 ? damped_omega2(omega2, Pack::load(&s.viscous_time[first])) : omega2;
+}
+
 /// Of the elements of a block.
 struct BlockState {
   double omega2 = 0;  ///< largest bound
@@ -66,7 +78,7 @@ BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int
   Pack omega2(0), volume(1), collapsed(0);
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
-    omega2 = max(Pack::load(&s.omega2[slot]) * Pack::load(&distortion[slot]), omega2);  // not a number: not taken
+    omega2 = max(omega2_of(s, distortion, slot), omega2);  // not a number: not taken
     volume = select(Pack::load(&s.volume[slot]) > Pack(0), volume, Pack(0));
     collapsed = max(Pack::load(&s.collapsed[slot]), collapsed);
   }
@@ -101,6 +113,9 @@ struct Worst {
   SlotId limiting, inverted;
   bool collapsed = false;
 };
+double element_omega2(const State& s, const Field<double, SlotId>& distortion, SlotId slot) {
+  return omega2_of(s, distortion, SlotId(slot - slot % Pack::size))[slot % Pack::size];
+}
 Worst worst_of(const Elements& el, const State& s, const Field<double, SlotId>& distortion) {
   struct Blocks {
     BlockState state;
@@ -124,7 +139,7 @@ Worst worst_of(const Elements& el, const State& s, const Field<double, SlotId>& 
       if (is_it(slot)) return slot;
     return SlotId();
   };
-  w.limiting = first(b.limiting, [&](SlotId i) { return s.omega2[i] * distortion[i] == w.omega2; });
+  w.limiting = first(b.limiting, [&](SlotId i) { return element_omega2(s, distortion, i) == w.omega2; });
   w.inverted = first(b.inverted, [&](SlotId i) { return !(s.volume[i] > 0); });
   return w;
 }
@@ -140,6 +155,8 @@ Worst worst_of_all(const Comm& comm, Worst w) {
 }
 
 }  // namespace
+
+double TimeStep::omega2(const State& s, SlotId slot) const { return element_omega2(s, distortion_, slot); }
 
 double TimeStep::stable(const Elements& el, const State& s) {
   const bool due = stale_ || s.step - refreshed_at_ >= refresh_steps;

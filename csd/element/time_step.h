@@ -20,6 +20,8 @@ class TimeStep {
   double stable(const Elements& elements, const State& s);
   /// Of the last call. Ties: lowest slot.
   SlotId limiting() const { return limiting_; }
+  /// Bound of an element's own frequency squared at the last call, with its share of the nodes' masses [1/s^2].
+  double omega2(const State& s, SlotId slot) const;
   /// The lowest slot whose volume isn't positive (or not a number) in the last call.
   std::optional<SlotId> inverted() const { return inverted_; }
 

@@ -4,13 +4,16 @@
 #pragma once
 #include <variant>
 
+#include "csd/load/blast.h"
+#include "csd/load/body_force.h"
 #include "csd/load/gravity.h"
 #include "csd/load/pressure.h"
 #include "csd/load/pressure_front.h"
+#include "csd/load/traction.h"
 
 namespace bw::csd {
 
-using LoadKind = std::variant<PressureFront, Pressure, Gravity>;
+using LoadKind = std::variant<PressureFront, Pressure, Traction, Blast, BodyForce, Gravity>;
 
 struct LoadCase {
   LoadKind kind;

@@ -25,6 +25,7 @@ class Loads {
   void append_copies(std::span<const NodeSplit> splits);
   /// Nodal forces of the last add() [N].
   Field<Vec3, NodeId>& forces() { return f_; }
+  const Field<Vec3, NodeId>& forces() const { return f_; }
 
  private:
   std::vector<LoadKind> kinds_;

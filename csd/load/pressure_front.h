@@ -8,6 +8,7 @@
 
 #include "csd/load/face_load.h"
 #include "csd/load/sets.h"
+#include "csd/load/table.h"
 
 namespace bw::csd {
 
@@ -16,13 +17,17 @@ struct PressureFront {
   double peak = 0, decay = 0, speed = 0, start_time = 0;
   Vec3 axis{0, 0, 1}, start{};
   std::vector<std::string> faces;
+  std::vector<double> behind, factors;
   std::string place;
 
   template <class K>
   void describe(K& k) {
     k.required("peak", peak, dim::pressure, "pressure at the front, eq (18): 1e11 dyn/cm^2 in the paper");
-    k.required("decay", decay, dim::per_length,
+    k.optional("decay", decay, dim::per_length,
                "the pressure behind the front falls by exp(-decay d), eq (18): 0.1 /cm in the paper");
+    k.optional("behind", behind, dim::length,
+               "in place of `decay`, any other: distances behind the front, rising from 0");
+    k.optional("factors", factors, dim::none, "on `peak` at these distances; linear between, the last one beyond");
     k.required("speed", speed, dim::velocity, "of the front: 7.2e5 cm/s in the paper");
     k.optional("axis", axis, dim::none, "direction in which the front runs (of any length)");
     k.optional("start", start, dim::length, "a point of the front at start_time");
@@ -31,16 +36,20 @@ struct PressureFront {
                "names of the face sets that are loaded: the original inner surface; faces made by cracks never are");
     k.expect(peak >= 0, "peak", "a pressure >= 0");
     k.expect(decay >= 0, "decay", "a number per length >= 0");
+    k.expect(k.has("decay") != !behind.empty(), "decay", "either `decay` or the table `behind`, `factors`");
+    k.expect(behind.size() == factors.size(), "factors", "as many values as `behind`");
+    k.expect(std::is_sorted(behind.begin(), behind.end(), std::less_equal<>()), "behind", "rising distances");
     k.expect(speed > 0, "speed", "a positive velocity");
     k.expect(norm(axis) > 0, "axis", "a direction other than (0, 0, 0)");
     if (!k.is_manual()) place = k.where("faces");
   }
 
-  void select(const Mesh& mesh) { set_ = face_sets(mesh, faces, place); }
+  void select(const Mesh& mesh) { set_ = face_sets(mesh, faces, place), profile_ = {behind, factors}; }
   /// Pa, at a point.
   double pressure(const Vec3& x, double t) const {
-    const double behind = speed * (t - start_time) - dot(x - start, unit(axis));
-    return t >= start_time && behind >= 0 ? peak * std::exp(-decay * behind) : 0;  // eq (18)
+    const double d = speed * (t - start_time) - dot(x - start, unit(axis));
+    if (t < start_time || d < 0) return 0;
+    return peak * (profile_.times.empty() ? std::exp(-decay * d) : profile_.at(d));  // eq (18)
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
@@ -53,6 +62,7 @@ struct PressureFront {
 
  private:
   std::vector<Face> set_;
+  Table profile_;  // factor by distance
 };
 
 }  // namespace bw::csd

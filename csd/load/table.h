@@ -2,6 +2,8 @@
 // A function of time given by points, linear between them, constant before the first and after the last.
 #pragma once
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/math/units.h"
@@ -29,5 +31,16 @@ struct Table {
     k.expect(values.size() == times.size(), values_key, "as many values as `times`");
   }
 };
+
+/// [factor]: lets a load or a velocity change in time.
+template <class K>
+void describe_factor(K& k, std::optional<Table>& factor) {
+  struct Factor : Table {
+    void describe(K& k) { describe_with(k, "factors", dim::none, "on the value; linear between, constant outside"); }
+  };
+  std::optional<Factor> table;
+  k.table("factor", table, "lets it change in time");
+  if (table) factor = *table;
+}
 
 }  // namespace bw::csd

@@ -140,6 +140,16 @@ MeshQuality check_mesh(Mesh& mesh, const std::string& where, bool may_have_piece
     }
   }
   quality.poor = int(std::count_if(scaled.begin(), scaled.end(), [](double s) { return s < 0.2; }));
+  std::vector<int32_t> order(scaled.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto five = order.begin() + long(std::min<size_t>(5, order.size()));
+  std::partial_sort(order.begin(), five, order.end(), [&](int32_t a, int32_t b) {
+    return std::pair(scaled[size_t(a)], a) < std::pair(scaled[size_t(b)], b);
+  });
+  for (auto e = order.begin(); e != five; ++e)
+    if (const double s = scaled[size_t(*e)]; s < 0.5)
+      quality.worst.push_back({mesh.elem_gid[ElemId(*e)], s, centroid(corners(mesh.hex[ElemId(*e)], mesh.X))});
+  for (const double s : scaled) quality.histogram[size_t(std::clamp(int(10 * s), 0, 9))] += 1;
   quality.min_scaled_jacobian = *std::min_element(scaled.begin(), scaled.end());
   std::nth_element(scaled.begin(), scaled.begin() + long(scaled.size() / 2), scaled.end());
   quality.median_scaled_jacobian = scaled[scaled.size() / 2];
@@ -166,6 +176,19 @@ std::string summary(const MeshQuality& q) {
   if (q.pieces > 1) text += fmt::format(", {} pieces", q.pieces);
   if (q.cavity_volume > 0) text += fmt::format(", cavity {:.6g} m^3", q.cavity_volume);
   return text;
+}
+
+std::vector<std::string> quality_report(const MeshQuality& q) {
+  std::vector<std::string> lines;
+  if (q.min_scaled_jacobian >= 0.9) return lines;
+  std::string bins;
+  for (size_t b = 0; b < q.histogram.size(); ++b)
+    if (q.histogram[b] > 0)
+      bins += fmt::format("{}to {:.1f}: {}", bins.empty() ? "" : ", ", 0.1 * double(b + 1), q.histogram[b]);
+  lines.push_back("elements by scaled Jacobian: " + bins);
+  for (const auto& w : q.worst)
+    lines.push_back(fmt::format("scaled Jacobian {:.3f}: element {} at {}", w.scaled_jacobian, w.gid, place(w.centre)));
+  return lines;
 }
 
 }  // namespace bw::csd

@@ -15,6 +15,13 @@ struct MeshQuality {
   int poor = 0;    ///< elements with a scaled Jacobian below 0.2
   double min_scaled_jacobian = 0, median_scaled_jacobian = 0, min_edge = 0, max_edge = 0;  // -, -, m, m
   double volume = 0;                                                                       ///< m^3
+  std::array<int, 10> histogram{};  ///< elements by scaled Jacobian: below 0.1, .. 0.2, ... 1
+  struct Worst {
+    int64_t gid;
+    double scaled_jacobian;
+    Vec3 centre;
+  };
+  std::vector<Worst> worst;        ///< up to five elements below 0.5, the worst first
   double cavity_volume = 0;        ///< m^3 enclosed by the face set `inner`, 0 if that is not closed
   std::vector<std::string> notes;  ///< for the log, one line each
 };
@@ -36,5 +43,7 @@ MeshQuality check_mesh(Mesh& mesh, const std::string& where, bool may_have_piece
 
 /// One line for the log.
 std::string summary(const MeshQuality& quality);
+/// Lines for the log: histogram of the scaled Jacobian unless all elements are above 0.9; the worst elements.
+std::vector<std::string> quality_report(const MeshQuality& quality);
 
 }  // namespace bw::csd

@@ -4,186 +4,261 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <unordered_map>
+#include <charconv>
+#include <cstring>
 
 #include "common/app/error.h"
-#include "csd/mesh/check.h"
-#include "csd/mesh/faces.h"
-#include "csd/mesh/gmsh_file.h"
-#include "csd/mesh/hex.h"
-#include "csd/mesh/tets.h"
+#include "csd/mesh/mesh_file.h"
 
 namespace bw::csd {
 
 namespace {
 
-constexpr int triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5;
-
-/// Numbers the nodes of volume elements in file order.
-class Points {
+class Reader {
  public:
-  explicit Points(const GmshFile& file) : file_(file) {
-    for (size_t i = 0; i < file.node_tag.size(); ++i)
-      if (!index_.try_emplace(file.node_tag[i], int32_t(i)).second)
-        throw InputError(fmt::format("{}: node {} is given twice", file.path, file.node_tag[i]));
-    number_.assign(file.x.size(), -1);
-    for (const GmshElement& e : file.elements)
-      if (gmsh_dimension(e.type) == 3)
-        for (int a = 0; a < gmsh_node_count(e.type); ++a) number_[size_t(index(e, a))] = 0;
-    for (size_t i = 0; i < number_.size(); ++i)
-      if (number_[i] == 0) {
-        number_[i] = int32_t(x.size());
-        x.push_back(file.x[i]);
-      }
+  explicit Reader(MeshFile& file) : file_(file), text_(file.text) {}
+  void read() {
+    if (section() != "MeshFormat") fail("expected $MeshFormat: not a Gmsh file");
+    read_format();
+    end("MeshFormat");
+    bool has_nodes = false, has_elements = false;
+    while (true) {
+      skip_space();
+      if (at_ == text_.size()) break;
+      const std::string name = section();
+      if (name == "PhysicalNames")
+        read_names();
+      else if (name == "Entities" && is_4_)
+        read_entities();
+      else if (name == "Nodes")
+        is_4_ ? read_nodes_4() : read_nodes_2(), has_nodes = true;
+      else if (name == "Elements")
+        is_4_ ? read_elements_4() : read_elements_2(), has_elements = true;
+      else
+        skip(name);
+      end(name);
+    }
+    if (!has_nodes) fail("the file has no $Nodes");
+    if (!has_elements) fail("the file has no $Elements");
   }
-  /// -1: the node is in no volume element.
-  int32_t operator()(const GmshElement& e, int a) const { return number_[size_t(index(e, a))]; }
-  std::vector<Vec3> x;
 
  private:
-  int32_t index(const GmshElement& e, int a) const {
-    const auto it = index_.find(e.nodes[size_t(a)]);
-    if (it == index_.end())
-      throw InputError(fmt::format("{}: element {} uses node {}, which is not in $Nodes", file_.at(e.offset), e.tag,
-                                   e.nodes[size_t(a)]));
-    return it->second;
+  [[noreturn]] void fail(const std::string& message) const { fail_at(at_, message); }
+  [[noreturn]] void fail_at(size_t offset, const std::string& message) const {
+    throw InputError(file_.at(offset) + ": " + message);
   }
-  const GmshFile& file_;
-  std::unordered_map<int64_t, int32_t> index_;
-  std::vector<int32_t> number_;
-};
 
-/// Format 2.2 writes an element once for each of its physical groups: leaves one of them, with all the groups.
-void join_repeated(GmshFile& file) {
-  std::map<std::array<int64_t, 8>, size_t> first;
-  std::vector<GmshElement> kept;
-  for (GmshElement& e : file.elements) {
-    if (gmsh_dimension(e.type) == 3) {
-      auto nodes = e.nodes;
-      std::fill(nodes.begin() + gmsh_node_count(e.type), nodes.end(), 0);
-      const auto [it, is_new] = first.try_emplace(nodes, kept.size());
-      GmshElement& known = is_new ? e : kept[it->second];
-      if (!is_new) {
-        if (e.physical.empty() || e.physical == known.physical)
-          throw InputError(
-              fmt::format("{}: element {} has the same nodes as element {}", file.at(e.offset), e.tag, known.tag));
-        known.physical.insert(known.physical.end(), e.physical.begin(), e.physical.end());
-        continue;
+  // --- words and numbers
+  // ------------------------------------------------------------------------------------------------
+  void skip_space() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  }
+  std::string_view word() {
+    skip_space();
+    const size_t begin = at_;
+    while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+    return std::string_view(text_).substr(begin, at_ - begin);
+  }
+  template <class T>
+  T from_text(const char* what) {
+    const std::string_view w = word();
+    T value{};
+    const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
+    if (error != std::errc() || end != w.data() + w.size())
+      fail_at(at_ - w.size(), fmt::format("expected {}, found {}", what,
+                                          w.empty() ? "the end of the file" : fmt::format("'{}'", w.substr(0, 40))));
+    return value;
+  }
+  template <class T>
+  T from_bytes(const char* what) {
+    if (text_.size() - at_ < sizeof(T)) fail(fmt::format("expected {}, found the end of the file", what));
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, text_.data() + at_, sizeof(T));
+    if (is_swapped_) std::reverse(bytes, bytes + sizeof(T));
+    at_ += sizeof(T);
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+  }
+  template <class T>
+  T get(const char* what) {
+    return file_.is_binary ? from_bytes<T>(what) : from_text<T>(what);
+  }
+  size_t count(int64_t n, const char* what) const {  // no allocation on the word of a broken file
+    if (n < 0 || uint64_t(n) > text_.size()) fail(fmt::format("{} {}: more than the file can hold", n, what));
+    return size_t(n);
+  }
+
+  // --- sections
+  // ---------------------------------------------------------------------------------------------------------
+  std::string section() {
+    skip_space();
+    const size_t begin = at_;
+    const std::string name(word());
+    if (name.size() < 2 || name[0] != '$' || name.starts_with("$End"))
+      fail_at(begin, fmt::format("expected a section like $Nodes, found '{}'", name.substr(0, 40)));
+    if (at_ < text_.size() && text_[at_] == '\r') ++at_;
+    if (at_ < text_.size()) ++at_;  // one line end; what follows may be binary
+    return name.substr(1);
+  }
+  void end(const std::string& name) {
+    skip_space();
+    const size_t begin = at_;
+    if (const std::string_view w = word(); w != fmt::format("$End{}", name))
+      fail_at(begin, fmt::format("expected $End{}, found '{}'", name, w.substr(0, 40)));
+  }
+  void skip(const std::string& name) {
+    const size_t found = text_.find(fmt::format("$End{}", name), at_);
+    if (found == std::string::npos) fail(fmt::format("section ${} has no end", name));
+    at_ = found;
+  }
+  void read_format() {
+    const size_t begin = at_;
+    const std::string version(word());
+    if (version != "2.2" && version != "4.1")
+      fail_at(begin, fmt::format("format {} (supported: 2.2 and 4.1; gmsh -format msh41)", version));
+    is_4_ = version == "4.1";
+    const int kind = from_text<int>("0 (text) or 1 (binary)"), size = from_text<int>("the size of a number");
+    if (size != 8) fail(fmt::format("numbers of {} bytes (supported: 8)", size));
+    if (kind == 0) return;
+    file_.is_binary = true;
+    line_end();
+    const auto one = from_bytes<int32_t>("the number 1");
+    is_swapped_ = one == 0x01000000;
+    if (one != 1 && !is_swapped_) fail("expected the binary number 1 (byte order)");
+  }
+  void line_end() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    if (at_ < text_.size()) ++at_;
+  }
+  void read_names() {
+    const int n = from_text<int>("the number of names");
+    for (int i = 0; i < n; ++i) {
+      const int dimension = from_text<int>("a dimension"), number = from_text<int>("a physical number");
+      const size_t open = text_.find_first_of("\"\n", text_.find_first_not_of(" \t", at_));
+      const size_t close = open == std::string::npos ? open : text_.find_first_of("\"\n", open + 1);
+      if (close == std::string::npos || text_[open] != '"' || text_[close] != '"') fail("expected a name in quotes");
+      file_.names[{dimension, number}] = text_.substr(open + 1, close - open - 1);
+      at_ = close + 1;
+    }
+  }
+
+  // --- format 2.2
+  // ---------------------------------------------------------------------------------------------------------
+  void read_nodes_2() {
+    const size_t n = count(from_text<int64_t>("the number of nodes"), "nodes");
+    if (file_.is_binary) line_end();
+    for (size_t i = 0; i < n; ++i) {
+      file_.node_tag.push_back(get<int32_t>("a node number"));
+      add_point();
+    }
+  }
+  void add_point() {
+    Vec3 p;
+    for (int d = 0; d < 3; ++d) p[d] = get<double>("a coordinate");
+    file_.x.push_back(p);
+  }
+  void read_elements_2() {
+    const size_t n = count(from_text<int64_t>("the number of elements"), "elements");
+    if (file_.is_binary) line_end();
+    size_t done = 0;
+    while (done < n) {
+      if (file_.is_binary) {
+        const int type = get<int32_t>("an element type");
+        const size_t block = count(get<int32_t>("a number of elements"), "elements");
+        const int tags = get<int32_t>("a number of tags");
+        for (size_t i = 0; i < block; ++i, ++done) add_element_2(get<int32_t>("an element number"), type, tags);
+      } else {
+        const auto tag = from_text<int64_t>("an element number");
+        const int type = from_text<int>("an element type");
+        add_element_2(tag, type, from_text<int>("a number of tags"));
+        ++done;
       }
     }
-    kept.push_back(std::move(e));
   }
-  file.elements = std::move(kept);
-}
+  void add_element_2(int64_t tag, int type, int tags) {
+    FileElement e = make_element(tag, type);
+    for (int i = 0; i < tags; ++i)
+      if (const int number = get<int32_t>("a tag"); i == 0 && number != 0) e.physical.push_back(std::abs(number));
+    for (int a = 0; a < element_node_count(type); ++a) e.nodes[size_t(a)] = get<int32_t>("a node number");
+    file_.elements.push_back(std::move(e));
+  }
+  FileElement make_element(int64_t tag, int type) const {
+    if (element_node_count(type) == 0)
+      fail(
+          fmt::format("element {} is {}: only first-order hexahedra and tetrahedra (with their faces, edges and "
+                      "points) are supported",
+                      tag,
+                      type == 6   ? "a prism"
+                      : type == 7 ? "a pyramid"
+                                  : fmt::format("of Gmsh type {}", type)));
+    return {tag, type, {}, {}, at_};
+  }
 
-using Quad = std::array<int32_t, 4>;
-Quad sorted(Quad q) {
-  std::sort(q.begin(), q.end());
-  return q;
-}
-
-void check_distinct(const GmshFile& file, const GmshElement& e) {
-  for (int a = 0; a < gmsh_node_count(e.type); ++a)
-    for (int b = 0; b < a; ++b)
-      if (const int64_t node = e.nodes[size_t(a)]; node == e.nodes[size_t(b)])
-        throw InputError(fmt::format("{}: element {} uses node {} twice", file.at(e.offset), e.tag, node));
-}
-
-/// Nodes of the points, edges and faces that lower-dimensional elements name; the quads of the faces.
-struct Named {
-  std::map<std::string, std::set<int32_t>> nodes;
-  std::map<Quad, std::set<std::string>> quads;
-};
-Named named_parts(const GmshFile& file, const Points& points, const TetSplit& split) {
-  Named named;
-  const auto add = [&](const std::string& name, const std::vector<int32_t>& nodes) {
-    auto& set = named.nodes[name];
-    for (const int32_t n : nodes)
-      if (n >= 0) set.insert(n);
-  };
-  for (const GmshElement& e : file.elements) {
-    const int dimension = gmsh_dimension(e.type);
-    if (dimension == 3 || e.physical.empty()) continue;
-    std::vector<int32_t> n;
-    for (int a = 0; a < gmsh_node_count(e.type); ++a) n.push_back(points(e, a));
-    const bool is_in_volume = std::all_of(n.begin(), n.end(), [](int32_t i) { return i >= 0; });
-    std::vector<Quad> quads;
-    if (e.type == quadrangle && is_in_volume) quads.push_back({n[0], n[1], n[2], n[3]});
-    if (e.type == triangle && is_in_volume)
-      for (const Quad& q : split.quads_of({n[0], n[1], n[2]}))
-        if (std::all_of(q.begin(), q.end(), [](int32_t i) { return i >= 0; })) quads.push_back(q);
-    if (dimension == 1 && is_in_volume)
-      if (const int32_t middle = split.middle_of(n[0], n[1]); middle >= 0) n.push_back(middle);
-    for (const int number : e.physical) {
-      const std::string name = file.group(dimension, number);
-      add(name, n);
-      for (const Quad& q : quads) {
-        add(name, {q.begin(), q.end()});
-        named.quads[sorted(q)].insert(name);
+  // --- format 4.1
+  // ---------------------------------------------------------------------------------------------------------
+  int64_t get_size(const char* what) { return get<int64_t>(what); }
+  void read_entities() {
+    size_t counts[4];
+    for (size_t& c : counts) c = count(get_size("a number of entities"), "entities");
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (size_t i = 0; i < counts[dimension]; ++i) {
+        const int tag = get<int32_t>("an entity's number");
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) get<double>("a coordinate");
+        auto& groups = groups_[{dimension, tag}];
+        const size_t n = count(get_size("a number of physical groups"), "physical groups");
+        for (size_t k = 0; k < n; ++k) groups.push_back(std::abs(get<int32_t>("a physical number")));
+        if (dimension == 0) continue;
+        const size_t bounds = count(get_size("a number of bounding entities"), "bounding entities");
+        for (size_t k = 0; k < bounds; ++k) get<int32_t>("an entity's number");
+      }
+  }
+  void read_nodes_4() {
+    const size_t blocks = count(get_size("a number of blocks"), "blocks");
+    for (int i = 0; i < 3; ++i) get_size("a count");
+    for (size_t b = 0; b < blocks; ++b) {
+      const int dimension = get<int32_t>("a dimension");
+      get<int32_t>("an entity's number");
+      const bool is_parametric = get<int32_t>("0 or 1") != 0;
+      const size_t n = count(get_size("a number of nodes"), "nodes");
+      for (size_t i = 0; i < n; ++i) file_.node_tag.push_back(get_size("a node number"));
+      for (size_t i = 0; i < n; ++i) {
+        add_point();
+        for (int k = 0; is_parametric && k < dimension; ++k) get<double>("a parameter");
       }
     }
   }
-  return named;
-}
-
-void add_face_sets(Mesh& mesh, const Named& named, const std::string& path) {
-  for (const auto& [name, nodes] : named.nodes)
-    for (const int32_t n : nodes) mesh.node_sets[name].push_back(NodeId(n));
-  if (named.quads.empty()) return;
-  Mesh mended = mesh;  // the sides that the elements will have once check_mesh has put their node order right
-  mend_node_order(mended, path);
-  for (const Face f : boundary_faces(mended, path)) {
-    const auto q = mended.nodes_of(f);
-    const auto it = named.quads.find(sorted({q[0], q[1], q[2], q[3]}));
-    if (it == named.quads.end()) continue;
-    for (const std::string& name : it->second) mesh.face_sets[name].push_back(f);
+  void read_elements_4() {
+    const size_t blocks = count(get_size("a number of blocks"), "blocks");
+    for (int i = 0; i < 3; ++i) get_size("a count");
+    for (size_t b = 0; b < blocks; ++b) {
+      const int dimension = get<int32_t>("a dimension"), entity = get<int32_t>("an entity's number"),
+                type = get<int32_t>("an element type");
+      const size_t n = count(get_size("a number of elements"), "elements");
+      const auto groups = groups_.find({dimension, entity});
+      for (size_t i = 0; i < n; ++i) {
+        FileElement e = make_element(get_size("an element number"), type);
+        for (int a = 0; a < element_node_count(type); ++a) e.nodes[size_t(a)] = get_size("a node number");
+        if (groups != groups_.end()) e.physical = groups->second;
+        file_.elements.push_back(std::move(e));
+      }
+    }
   }
-}
+
+  MeshFile& file_;
+  const std::string& text_;
+  size_t at_ = 0;
+  bool is_4_ = false, is_swapped_ = false;
+  std::map<std::pair<int, int>, std::vector<int>> groups_;  // physical groups of an entity (dimension, number)
+};
 
 }  // namespace
 
 Mesh Gmsh::make() const {
-  GmshFile raw = read_gmsh(file, place);
-  join_repeated(raw);
-  const Points points(raw);
-  if (points.x.empty())
-    throw InputError(place + ": mesh file '" + file +
-                     "': no volume elements (hexahedra or tetrahedra) in the file; were only surfaces meshed?");
-  std::vector<std::array<int32_t, 4>> tets;
-  for (const GmshElement& e : raw.elements) {
-    if (e.type != tetrahedron) continue;
-    tets.push_back({points(e, 0), points(e, 1), points(e, 2), points(e, 3)});
-    const auto at = [&](int a) { return points.x[size_t(tets.back()[size_t(a)])]; };
-    if (triple(at(1) - at(0), at(2) - at(0), at(3) - at(0)) == 0)
-      throw InputError(fmt::format("{}: tetrahedron {} has no volume", raw.at(e.offset), e.tag));
-  }
-  const TetSplit split(points.x, tets);
-  Mesh mesh;
-  for (size_t n = 0; n < split.x.size(); ++n) {
-    mesh.X.push_back(split.x[n]);
-    mesh.node_gid.push_back(int64_t(n));
-    mesh.parent.push_back(NodeId());
-  }
-  size_t next = 0;  // hex of the split
-  for (const GmshElement& e : raw.elements) {
-    if (gmsh_dimension(e.type) != 3) continue;
-    check_distinct(raw, e);
-    for (int k = 0; k < (e.type == tetrahedron ? 4 : 1); ++k) {
-      std::array<NodeId, 8> h;
-      for (size_t a = 0; a < 8; ++a) h[a] = NodeId(e.type == hexahedron ? points(e, int(a)) : split.hexes[next][a]);
-      if (e.type == tetrahedron) ++next;
-      for (const int number : e.physical) mesh.elem_sets[raw.group(3, number)].push_back(ElemId(mesh.elem_count()));
-      mesh.elem_gid.push_back(mesh.elem_count());
-      mesh.hex.push_back(h);
-      mesh.body.push_back(0);
-    }
-    if (e.type == hexahedron && valid_node_order(corners(mesh.hex[ElemId(mesh.elem_count() - 1)], mesh.X)) < 0)
-      throw InputError(fmt::format("{}: hexahedron {} is inverted or has no volume", raw.at(e.offset), e.tag));
-  }
-  add_face_sets(mesh, named_parts(raw, points, split), file);
-  return mesh;
+  MeshFile raw;
+  raw.path = file, raw.text = read_mesh_text(file, place), raw.repeats_elements = true;
+  Reader(raw).read();
+  return mesh_of(std::move(raw), elements, place);
 }
 
 }  // namespace bw::csd

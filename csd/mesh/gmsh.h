@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <vector>
 
 #include "csd/mesh/mesh.h"
 
@@ -11,11 +12,13 @@ namespace bw::csd {
 /// nodes, curves and points -> nodes. elem_gid and node_gid count in file order. Nodes of no element are left out.
 struct Gmsh {
   std::string file;
+  std::vector<std::string> elements;
   static constexpr auto name = "gmsh";
   template <class K>
   void describe(K& k) {
     k.required("file", file,
                "path of the .msh file (format 2.2 or 4.1, hexahedra or tetrahedra), relative to the case file");
+    k.optional("elements", elements, "names of physical volumes: the body is made of them alone; empty: of all");
     if (!k.is_manual()) {
       place = k.where("file");
       file = k.resolve_path(file);

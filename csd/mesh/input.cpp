@@ -92,8 +92,12 @@ Mesh make_mesh(const MeshInput& input, MeshQuality& quality) {
     if (input.turn != 0) x = turned(x, axis, input.turn);
     x += input.move;
   }
-  const bool is_file = std::holds_alternative<Gmsh>(input.kind);
-  const std::string where = is_file ? std::get<Gmsh>(input.kind).file : input.place;
+  const std::string where = std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.file; }) return kind.file;
+        return input.place;
+      },
+      input.kind);
   quality = check_mesh(mesh, where, input.may_have_pieces);
   if (input.perturb > 0) {
     perturb_nodes(mesh, input.perturb, uint64_t(input.seed));

@@ -37,7 +37,9 @@ struct MeshInput {
            "upper, side; tube inner, "
            "outer, lower, upper; sectors cut_x, cut_y or cut_z by the planes' normals; shell_of_revolution and weapon "
            "inner, outer (weapon "
-           "also elements nose_plug, base_plug, wall); gmsh the physical groups",
+           "also elements nose_plug, base_plug, wall); block as box; ball outer, inner, cut_x .. cut_z; gmsh, abaqus, "
+           "lsdyna "
+           "the file's own",
            true);
     k.optional("scale", scale, dim::none, "factor on all coordinates (0.001 for a file in millimetres)");
     k.expect(scale > 0, "scale", "a positive factor");

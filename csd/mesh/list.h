@@ -4,9 +4,12 @@
 #include <concepts>
 #include <variant>
 
+#include "csd/mesh/abaqus.h"
+#include "csd/mesh/block.h"
 #include "csd/mesh/box.h"
 #include "csd/mesh/cylinder.h"
 #include "csd/mesh/gmsh.h"
+#include "csd/mesh/lsdyna.h"
 #include "csd/mesh/shell.h"
 
 namespace bw::csd {
@@ -17,7 +20,7 @@ concept MeshMaker = requires(const M& m) {
   { m.make() } -> std::same_as<Mesh>;
 };
 
-using MeshKind = std::variant<Box, Cylinder, Tube, ShellOfRevolution, Weapon, Gmsh>;
+using MeshKind = std::variant<Box, Block, Cylinder, Tube, Ball, ShellOfRevolution, Weapon, Gmsh, Abaqus, LsDyna>;
 
 template <MeshMaker... Ms>
 constexpr bool all_make_meshes(const std::variant<Ms...>*) {

@@ -70,6 +70,20 @@ $Elements
 1 5 2 1 1 1 2 3 4 5 6 7 8
 $EndElements
 """
+INP = """\
+*Node
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+*Element, type=C3D8, elset=All
+1, 1, 2, 3, 4, 5, 6, 7, 8
+"""
+KEY = "*NODE\n" + "".join(f"{line}\n" for line in INP.split("\n")[1:9]) + "*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n*END\n"
 EMPTY_MSH = PUSHED_MSH.split("$Elements")[0] + "$Elements\n0\n$EndElements\n"
 BOX = 'mesh = {kind = "box", lower = [0, 0, 0], upper = ["10 mm", "10 mm", "10 mm"], cells = [2, 2, 2]}'
 
@@ -99,6 +113,21 @@ CASES = {
     "negative density, fluid": ("cfd", swap(FLUID, "density = 1.225", "density = -1.225"), r"density", {}),
     "no explosive to burn": ("cfd", FLUID + BURN, r"TNT", {}),
     "burn of a gas": ("cfd", FLUID + swap(BURN, '"TNT"', '"air"'), r"air|explosive", {}),
+    "Abaqus: unknown node": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:11: .*node 77",
+                             {"a.inp": swap(INP, "6, 7, 8\n", "6, 77, 8\n")}),
+    "Abaqus: duplicate element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:12: .*same nodes",
+                                  {"a.inp": INP + "2, 1, 2, 3, 4, 5, 6, 7, 8\n"}),
+    "Abaqus: unknown set": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp", elements = ["Al"]}'), r"has: All", {"a.inp": INP}),
+    "LS-DYNA: coordinate": ("csd", swap(SOLID, BOX, 'mesh = {kind = "lsdyna", file = "a.k"}'), r"a\.k:3: expected a coordinate",
+                            {"a.k": swap(KEY, "2, 1, 0, 0", "2, one, 0, 0")}),
+    "blast too near": ("csd", SOLID + '[[solid.load]]\nkind = "blast"\nfaces = ["x_lower"]\ncentre = [-0.001, 0, 0]\ncharge = 1.0\n', r"0\.0531", {}),
+    "front without decay": ("csd", SOLID + '[[solid.load]]\nkind = "pressure_front"\nfaces = ["x_lower"]\npeak = 1e9\nspeed = 1000.0\n', r"decay", {}),
+    "traction twice": ("csd", SOLID + '[[solid.load]]\nkind = "traction"\nfaces = ["x_lower"]\ntraction = [1.0, 0, 0]\ntotal = [1.0, 0, 0]\n', r"either", {}),
+    "spring of nothing": ("csd", SOLID + '[[solid.condition]]\nkind = "spring"\nnodes = "x_lower"\n', r"stiffness", {}),
+    "symmetry inside": ("csd", SOLID + '[[solid.condition]]\nkind = "symmetry"\nnormal = [1, 0, 0]\npoint = [0.005, 0, 0]\n', r"both sides", {}),
+    "tie to far faces": ("csd", SOLID + '[[solid.condition]]\nkind = "tie"\nnodes = "x_lower"\nfaces = ["x_upper"]\n', r"lies within", {}),
+    "unknown region": ("csd", SOLID + '[[solid.velocity]]\nnodes = "x_lowr"\nvelocity = [1.0, 0, 0]\n', r"x_lower", {}),
+    "no minimum step": ("csd", SOLID + '[solid.mass_scaling]\nminimum_step = 0.0\n', r"minimum_step", {}),
     "broken TOML": ("csd", swap(SOLID, "[[solid.body]]", "[[solid.body]"), r".", {}),
 }
 
@@ -115,7 +144,7 @@ def main():
             done = subprocess.run([BUILD / "bin" / program, "case.toml"], cwd=folder, env=environment, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True, timeout=60)
             stepped = any((pathlib.Path(folder) / "out").glob("*_summary.json"))
-        message = [line for line in done.stdout.split("\n") if re.search(r"\.(toml|msh):\d+", line)]
+        message = [line for line in done.stdout.split("\n") if re.search(r"\.(toml|msh|inp|k):\d+", line)]
         faults = []
         if done.returncode != 2:
             faults.append(f"exit code {done.returncode}, not 2")

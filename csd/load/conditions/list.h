@@ -4,16 +4,24 @@
 //   before_drift(s, dt)   s.v is the velocity of the coming step
 //   on_force(s, dt)       s.v still is; s.f are the forces at the step's end
 //   after_kick(s, dt)     s.v is the velocity at the step's end
+// and if it is so: is_last (acts on the forces that the others leave), is_tie (moves forces before the others take
+// theirs, and velocities after them), omega2(s) (stiffness of its own, 1/s^2).
 #pragma once
 #include <variant>
 
+#include "csd/load/conditions/damping.h"
+#include "csd/load/conditions/displacement.h"
 #include "csd/load/conditions/fixed.h"
 #include "csd/load/conditions/rigid_wall.h"
+#include "csd/load/conditions/spring.h"
+#include "csd/load/conditions/symmetry.h"
+#include "csd/load/conditions/tie.h"
 #include "csd/load/conditions/velocity.h"
 
 namespace bw::csd {
 
-using ConditionKind = std::variant<Fixed, Roller, RigidWall, PrescribedVelocity>;
+using ConditionKind =
+    std::variant<Fixed, Roller, Symmetry, RigidWall, PrescribedVelocity, PrescribedDisplacement, Spring, Damping, Tie>;
 
 struct ConditionCase {
   ConditionKind kind;

@@ -16,13 +16,18 @@ struct RigidWall {
   static constexpr auto name = "rigid_wall";
   Vec3 point{}, normal{};
   std::string friction = "none", separation = "rebound", nodes, place;
+  double coefficient = 0.1;
   Reaction reaction;
 
   template <class K>
   void describe(K& k) {
     k.required("point", point, dim::length, "a point of the plane");
     k.required("normal", normal, dim::none, "of the plane, into the half space where the nodes are (of any length)");
-    k.choice("friction", friction, {"none", "stick"}, "none: nodes slide freely; stick: nodes in contact don't slide");
+    k.choice("friction", friction, {"none", "stick", "coulomb"},
+             "none: nodes slide freely; stick: nodes in contact don't slide; coulomb: they slide once the force along "
+             "the wall exceeds `coefficient` times the force on it");
+    k.optional("coefficient", coefficient, dim::none, "of Coulomb's friction");
+    k.expect(coefficient >= 0, "coefficient", "a number >= 0");
     k.choice("separation", separation, {"rebound", "node"},
              "rebound: nodes in contact stay while their body's momentum leads to the wall, then each leaves when it "
              "is pulled; "
@@ -54,7 +59,7 @@ struct RigidWall {
       const double gap = dot(s.x[n] - point, normal), v_n = dot(s.v[n], normal);
       if (gap + dt * v_n >= 0) continue;
       touches_[i] = 1;
-      reaction.set_velocity(s, n, (-gap / dt) * normal + sliding(s.v[n]));  // ends on the plane
+      reaction.set_velocity(s, n, (-gap / dt) * normal + sliding(s.v[n], -v_n));  // ends on the plane
     }
   }
   void on_force(State& s, double dt) {
@@ -66,14 +71,31 @@ struct RigidWall {
       const NodeId n = reaction.nodes[i];
       const double f_n = dot(s.f[n], normal);
       touches_[i] = f_n < 0 || (separation == "rebound" && momentum_[size_t(body_[size_t(n)])] < 0);
-      reaction.take_force(s, i, !touches_[i] ? Vec3{} : friction == "stick" ? s.f[n] : f_n * normal, dt);
-      if (touches_[i]) reaction.set_velocity(s, n, sliding(s.v[n]));
+      reaction.take_force(s, i, !touches_[i] ? Vec3{} : held(s, n, f_n, dt), dt);
+      if (touches_[i]) reaction.set_velocity(s, n, friction == "stick" ? Vec3{} : along(s.v[n]));
     }
   }
   void after_kick(State&, double) {}
 
  private:
-  Vec3 sliding(const Vec3& v) const { return friction == "stick" ? Vec3{} : v - dot(v, normal) * normal; }
+  Vec3 along(const Vec3& v) const { return v - dot(v, normal) * normal; }
+  /// The largest part of `wish` that friction allows for `pressing`, impulses or forces alike.
+  Vec3 limited(const Vec3& wish, double pressing) const {
+    const double size = norm(wish), limit = coefficient * std::max(pressing, 0.0);
+    return size > limit ? (limit / size) * wish : wish;
+  }
+  /// Velocity along the wall after an impact that takes `stopped` of the normal velocity.
+  Vec3 sliding(const Vec3& v, double stopped) const {
+    if (friction == "stick") return {};
+    return friction == "none" ? along(v) : along(v) - limited(along(v), stopped);
+  }
+  /// What the wall takes of a touching node's force: the normal part, and what holds it back along the wall. Coulomb:
+  /// at most what stops it within the step.
+  Vec3 held(const State& s, NodeId n, double f_n, double dt) const {
+    if (friction == "stick") return s.f[n];
+    if (friction == "none" || dt == 0) return f_n * normal;
+    return f_n * normal + limited(along(s.f[n] + (s.m[n] / dt) * s.v[n]), -f_n);
+  }
   std::vector<char> touches_;     // per reaction.nodes
   std::vector<int32_t> body_;     // per node
   std::vector<double> momentum_;  // kg m/s along the normal, per body

@@ -23,14 +23,7 @@ struct PrescribedVelocity {
     k.required("value", value, dim::velocity, "velocity of the nodes");
     k.choice("components", components, {"x", "y", "z", "xy", "xz", "yz", "xyz"},
              "which components are prescribed; the others are free");
-    struct Factor : Table {
-      void describe(K& k) {
-        this->describe_with(k, "factors", dim::none, "on `value`; linear between, constant outside");
-      }
-    };
-    std::optional<Factor> table;
-    k.table("factor", table, "lets the velocity change in time");
-    if (table) factor = *table;
+    describe_factor(k, factor);
     if (!k.is_manual()) place = k.where("nodes");
   }
   void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }

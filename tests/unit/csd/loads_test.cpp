@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loads: totals, tables, and the curves of Kingery and Bulmash against published values and their own consistency.
+#include <gtest/gtest.h>
+
+#include "common/app/error.h"
+#include "solid_scene.h"
+
+namespace bw::csd {
+namespace {
+
+Vec3 total(const Mesh& mesh, LoadKind load, double t = 0, double mass = 1) {
+  Field<Vec3, NodeId> f(mesh.X.size());
+  Field<double, NodeId> m(mesh.X.size(), mass);
+  std::visit([&](auto& l) { l.select(mesh), l.add(mesh, mesh.X, m, t, f); }, load);
+  Vec3 sum;
+  for (const Vec3& a : f) sum += a;
+  return sum;
+}
+void expect_near(const Vec3& a, const Vec3& b, double tolerance) { EXPECT_LT(norm(a - b), tolerance); }
+
+TEST(Loads, TractionByAreaAndByTotal) {
+  const Mesh mesh = box({0, 0, 0}, {0.1, 0.2, 0.3}, {3, 4, 5}, 0.2);
+  Traction t;
+  t.faces = {"x_upper"}, t.traction = {0, 5e5, 0}, t.factor = Table{{0, 1}, {1, 3}};
+  expect_near(total(mesh, t), {0, 5e5 * 0.06, 0}, 1e-7);
+  expect_near(total(mesh, t, 0.5), {0, 10e5 * 0.06, 0}, 1e-7);
+  t.traction = {}, t.total = {1, 2, 3}, t.faces = {"x_upper", "y_lower"}, t.factor.reset();
+  expect_near(total(mesh, t), {1, 2, 3}, 1e-12);
+}
+
+TEST(Loads, BodyForceOfASet) {
+  Mesh mesh = box({0, 0, 0}, {0.1, 0.2, 0.3}, {2, 2, 2}, 0.2);
+  BodyForce b;
+  b.density = {1e3, 0, 2e3};
+  expect_near(total(mesh, b), 0.006 * b.density, 1e-12);
+  mesh.elem_sets["one"] = {ElemId(0)};
+  b.elements = "one";
+  const double V = volume_of(modes_of(corners(mesh, ElemId(0))));
+  expect_near(total(mesh, b), V * b.density, 1e-12);
+}
+
+TEST(Loads, FrontWithAnyDecay) {
+  PressureFront front;
+  front.peak = 1e9, front.speed = 1000, front.axis = {1, 0, 0}, front.faces = {"y_lower"};
+  front.behind = {0, 0.1, 0.3}, front.factors = {1, 0.5, 0.1};
+  Mesh mesh = box({0, 0, 0}, {1, 0.1, 0.1}, {4, 1, 1});
+  front.select(mesh);
+  EXPECT_EQ(front.pressure({0.6, 0, 0}, 0.5e-3), 0);
+  EXPECT_NEAR(front.pressure({0.45, 0, 0}, 0.5e-3), 0.75e9, 1);
+  EXPECT_NEAR(front.pressure({0.3, 0, 0}, 0.5e-3), 0.3e9, 1);
+  EXPECT_NEAR(front.pressure({0, 0, 0}, 0.5e-3), 0.1e9, 1);
+}
+
+TEST(Blast, TableOfFreeAir) {  // VALIDATION F9: Z, arrival ms, incident, reflected kPa, impulses kPa ms
+  const double table[6][6] = {{.5, .1541, 3885, 30360, 141.3, 1454},  {1, .5318, 934.9, 5006, 174.5, 559.0},
+                              {2, 1.944, 194.7, 645.8, 92.12, 235.7}, {3, 3.987, 81.59, 215.5, 64.33, 147.1},
+                              {5, 8.995, 31.30, 70.02, 40.62, 83.32}, {10, 22.72, 11.09, 23.31, 21.13, 39.71}};
+  for (const auto& row : table) {
+    const BlastWave w = BlastWave::at(free_air::curves, row[0], 1);
+    EXPECT_NEAR(1e3 * w.arrival, row[1], 5e-4 * row[1]);
+    EXPECT_NEAR(1e-3 * w.incident, row[2], 5e-4 * row[2]);
+    EXPECT_NEAR(1e-3 * w.reflected, row[3], 5e-4 * row[3]);
+    // the impulses are those of the pressure histories
+    double incident = 0, reflected = 0;
+    const int n = 20000;
+    for (int i = 0; i < n; ++i) {
+      const double t = w.arrival + (i + 0.5) / n * w.duration;
+      incident += w.pressure(0, t) * w.duration / n, reflected += w.pressure(1, t) * w.duration / n;
+    }
+    EXPECT_TRUE(w.incident_decay == 0 || std::fabs(incident / row[4] - 1) < 1e-3) << row[0] << " " << incident;
+    EXPECT_TRUE(w.reflected_decay == 0 || std::fabs(reflected / row[5] - 1) < 1e-3) << row[0] << " " << reflected;
+  }
+}
+
+TEST(Blast, ChargesScale) {  // Hopkinson: distance, time and impulse with the cube root of the charge
+  const BlastWave one = BlastWave::at(hemisphere::curves, 3, 1), many = BlastWave::at(hemisphere::curves, 30, 1000);
+  EXPECT_NEAR(many.incident, one.incident, 1e-9 * one.incident);
+  EXPECT_NEAR(many.arrival, 10 * one.arrival, 1e-9);
+  EXPECT_NEAR(many.duration, 10 * one.duration, 1e-9);
+  EXPECT_NEAR(many.reflected_decay, one.reflected_decay, 1e-9);
+}
+
+TEST(Blast, CurvesHangTogether) {  // a wrong digit or sign breaks one of these
+  for (const BlastCurves* c : {&free_air::curves, &hemisphere::curves}) {
+    for (const auto& ranges : {c->incident_impulse, c->duration})
+      for (size_t i = 1; i < ranges.size(); ++i)
+        EXPECT_NEAR(ranges[i].at(ranges[i - 1].up_to) / ranges[i - 1].at(ranges[i - 1].up_to), 1, 0.02);
+    for (double Z : {2.0, 3.0, 5.0, 10.0, 20.0, 40.0}) {  // plane shock in air of gamma 1.4: reflection
+      const double p = blast_value(c->incident, Z), p0 = 101.325;
+      EXPECT_NEAR(blast_value(c->reflected, Z) / (2 * p * (7 * p0 + 4 * p) / (7 * p0 + p)), 1, 0.025) << Z;
+    }
+    for (double Z : {30.0, 40.0}) {  // and its speed: the arrival's slope
+      const double p = blast_value(c->incident, Z), h = 0.01;
+      const double speed = 2 * h / (blast_value(c->arrival, Z + h) - blast_value(c->arrival, Z - h));
+      EXPECT_NEAR(speed, 0.340 * std::sqrt(1 + 6 * p / (7 * 101.325)), 0.03) << Z;
+    }
+    double before = 1e300;
+    for (double Z = c->nearest; Z < 40; Z *= 1.02) {
+      EXPECT_LT(blast_value(c->incident, Z), before);
+      before = blast_value(c->incident, Z);
+      EXPECT_GT(blast_value(c->reflected, Z), 1.99 * before);
+    }
+  }
+}
+
+TEST(Blast, AngleOfIncidence) {
+  const BlastWave w = BlastWave::at(free_air::curves, 2, 1);
+  const double t = w.arrival * (1 + 1e-9);
+  EXPECT_NEAR(w.pressure(1, t), w.reflected, 1e-3 * w.reflected);
+  EXPECT_NEAR(w.pressure(0, t), w.incident, 1e-3 * w.incident);
+  EXPECT_NEAR(w.pressure(-1, t), w.incident, 1e-3 * w.incident);
+  EXPECT_NEAR(w.pressure(0.5, t), w.incident + 0.25 * w.reflected, 1e-3 * w.reflected);
+  EXPECT_EQ(w.pressure(1, 0.99 * w.arrival), 0);
+  EXPECT_EQ(w.pressure(1, 1.01 * (w.arrival + w.duration)), 0);
+}
+
+TEST(Blast, LoadsTheFacesThatItNames) {
+  Blast blast;
+  blast.centre = {-2, 0.05, 0.05}, blast.charge = 0.5, blast.equivalent = 2, blast.faces = {"x_lower"};
+  Mesh mesh = box({0, 0, 0}, {0.1, 0.1, 0.1}, {1, 2, 2});
+  const BlastWave w = BlastWave::at(free_air::curves, 2, 1);
+  const Vec3 f = total(mesh, blast, 1.0001 * w.arrival + 2e-6);  // the corners are later by 1 us
+  EXPECT_NEAR(f.x, 0.01 * w.reflected, 0.02 * 0.01 * w.reflected);
+  blast.centre = {-100, 0, 0};
+  EXPECT_THROW(blast.select(mesh), InputError);
+  blast.centre = {-0.01, 0.05, 0.05};
+  EXPECT_THROW(blast.select(mesh), InputError);
+}
+
+}  // namespace
+}  // namespace bw::csd
