@@ -69,6 +69,7 @@ std::vector<int32_t> assign_blocks(const Mesh& mesh, const Blocks& blocks, int r
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_NCUTS] = 8;  // the best of several: blocks are coarse
   const int code =
       METIS_PartGraphRecursive(&count, &conditions, g.start.data(), g.to.data(), g.elements.data(), nullptr,
                                g.shared.data(), &parts, nullptr, nullptr, options, &cut, part.data());
