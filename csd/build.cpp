@@ -65,6 +65,11 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   if (cs.relaxation) ph.relaxation.emplace(*cs.relaxation, s.x.size());
   if (cs.mass_scaling) ph.mass_scaling.emplace(*cs.mass_scaling, s);
   if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t);
+  if (cs.rigid) {
+    std::vector<std::string> names;
+    for (const BodyCase& body : cs.bodies) names.push_back(body.name);
+    ph.rigid.emplace(*cs.rigid, names, mesh);
+  }
   return ph;
 }
 
@@ -82,6 +87,7 @@ Model build(const Case& cs, const Comm& comm) {
   Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
   first_forces(model);
   if (const auto& ranks = model.physics.elements.ranks) ranks->complete(model.state);
+  if (model.physics.rigid) model.physics.rigid->start(model);
   model.physics.energy.initial = energy_row(model.physics, model.state).residual;
   return model;
 }

@@ -12,6 +12,7 @@
 #include "csd/element/filter.h"
 #include "csd/energy.h"
 #include "csd/fracture/fracture.h"
+#include "csd/fragments/rigid.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/list.h"
 #include "csd/load/mass_scaling.h"
@@ -119,6 +120,7 @@ struct SolidCase {
   EnergyCase energy;
   TimeStepCase time_step;
   std::optional<FractureInput> fracture;
+  std::optional<RigidInput> rigid;
   std::vector<InitialVelocityCase> velocities;
   std::vector<LoadCase> loads;
   std::vector<ConditionCase> conditions;
@@ -140,11 +142,13 @@ struct SolidCase {
     k.table("energy", energy, "what happens when energy goes missing");
     k.table("time_step", time_step, "choice of the time step");
     k.table("fracture", fracture, "cracks by splitting nodes; absent: none");
+    k.table("rigid", rigid, "fragments and bodies that move as rigid ones; absent: none");
     k.tables("velocity", velocities, "initial velocity of a region, in place of its body's");
     k.tables("load", loads, "a load");
     k.tables("condition", conditions, "a condition on nodes");
     k.table("static", relaxation, "to the static solution by dynamic relaxation; absent: the run is dynamic");
     k.table("mass_scaling", mass_scaling, "more mass for elements with short steps; absent: none");
+    k.expect(!(rigid && relaxation), "rigid", "no [solid.static] beside it: a rigid body has no static solution");
     k.tables("probe", probes, "columns of solid_history.csv");
     k.table("wet", wet, "the surface that touches the fluid");
   }

@@ -24,6 +24,10 @@ bool Cracks::update_fail(const Model& m) {
         parallel_for(int64_t(fail_.size()), [&](int64_t e) {
           const SlotId slot = el.blocks.slot[ElemId(e)];
           if (!el.blocks.is_own(slot)) return;
+          if (m.state.rigid.size() > 0 && m.state.rigid[slot] > 0) {
+            fail_[size_t(e)] = 0;  // rigid bodies don't break
+            return;
+          }
           if constexpr (C::uses_stress) {
             const ElementResult r = evaluate(el, m.state, slot, sigma_m);
             fail_[size_t(e)] = criterion.fail(r.eqps, r.sigma);

@@ -16,7 +16,13 @@
 namespace bw::csd {
 namespace {
 
-std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, bool heats, bool is_static) {
+bool any_heats(const Elements& el) {
+  for (int body = 0; body < int(el.materials.size()); ++body)
+    if (heats(el, body)) return true;
+  return false;
+}
+
+std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, const Physics& ph) {
   std::vector<History::Column> c{{"t", "s"}, {"step", "1"}, {"dt", "s"}, {"dt_stable", "s"}};
   for (const char* name : {"kinetic_energy", "elastic_energy", "plastic_work", "filter_energy", "collapse_energy",
                            "viscous_work", "external_work", "condition_work", "contact_work", "spring_work",
@@ -27,8 +33,9 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, boo
   for (const char* name : {"momentum x", "momentum y", "momentum z"}) c.push_back({name, "kg m/s"});
   for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"})
     c.push_back({name, "1"});
-  if (heats) c.push_back({"heat", "J"}), c.push_back({"temperature_max", "K"});
-  if (is_static) c.push_back({"static_imbalance", "1"}), c.push_back({"relaxation_rate", "1/s"});
+  if (ph.rigid) c.push_back({"rigidization_energy", "J"}), c.push_back({"rigid_fragments", "1"});
+  if (any_heats(ph.elements)) c.push_back({"heat", "J"}), c.push_back({"temperature_max", "K"});
+  if (ph.relaxation) c.push_back({"static_imbalance", "1"}), c.push_back({"relaxation_rate", "1/s"});
   for (ProbeCase& probe : probes)
     std::visit(
         [&](const auto& p) {
@@ -38,11 +45,6 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, boo
   return c;
 }
 
-bool any_heats(const Elements& el) {
-  for (int body = 0; body < int(el.materials.size()); ++body)
-    if (heats(el, body)) return true;
-  return false;
-}
 Vec3 momentum_of(const State& s) {
   return parallel_reduce(
       int64_t(s.x.size()), Vec3{}, [&](int64_t n) { return s.m[NodeId(n)] * s.v[NodeId(n)]; },
@@ -71,8 +73,7 @@ Output::Output(const Case& cs, const Model& model, double t_end)
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
   if (writes(model))
-    history_.emplace(cs.run.output.directory + "/solid_history.csv",
-                     history_columns(probes_, any_heats(model.physics.elements), model.physics.relaxation.has_value()));
+    history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_, model.physics));
 }
 
 double Output::next_time(double t) const {
@@ -132,6 +133,8 @@ void Output::write_row(Model& m) {
   auto& cracks = m.physics.cracks;
   row.push_back(cracks ? double(cracks->opened_faces()) : 0);
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
+  if (const auto& rigid = m.physics.rigid)
+    row.push_back(energy_.rigidization), row.push_back(double(rigid->bodies().size()));
   if (any_heats(m.physics.elements)) row.push_back(energy_.heat), row.push_back(energy_.temperature_max);
   if (const auto& relaxation = m.physics.relaxation)
     row.push_back(static_imbalance(m.physics)), row.push_back(relaxation->rate());
@@ -259,6 +262,12 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   if (m.physics.cracks) {
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
+  }
+  if (const auto& rigid = m.physics.rigid) {
+    sum.energies.emplace_back("rigidization", energy_.rigidization);
+    sum.counts.emplace_back("rigid_fragments", double(rigid->bodies().size()));
+    sum.counts.emplace_back("rigid_elements", double(rigid->elements()));
+    sum.counts.emplace_back("skipped_rigid_blocks", double(m.physics.resting.rigid_skips));
   }
   sum.values = {{"energy_residual_part", watch_.worst()},
                 {"dt", m.state.dt},

@@ -9,6 +9,7 @@
 #include "csd/element/filter.h"
 #include "csd/element/time_step.h"
 #include "csd/energy.h"
+#include "csd/fragments/rigid.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/loads.h"
 #include "csd/load/mass_scaling.h"
@@ -27,7 +28,11 @@ struct Physics {
   std::optional<Relaxation> relaxation;
   std::optional<MassScaling> mass_scaling;
   std::optional<Cracks> cracks;
+  std::optional<Rigid> rigid;
   EnergyBooks energy;
 };
+
+/// [node] Held by a condition: all but rigid walls, springs and drag.
+std::vector<char> held_nodes(const Physics& ph, const Mesh& mesh);
 
 }  // namespace bw::csd

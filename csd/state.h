@@ -28,6 +28,7 @@ struct State {
   Field<double, SlotId> viscous_stress;  ///< Pa, bulk viscosity's part of the mean stress; empty without viscosity
   Field<double, SlotId> viscous_time;    ///< s, its viscosity over the stiffness; empty without viscosity
   Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
+  Field<double, SlotId> rigid;           ///< 1: of a rigid body, passed over by the force loop; empty without such
   std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes], of this rank's blocks
 
   std::vector<int32_t> followed;  ///< nodes whose x, v, f are kept up to date on this rank; empty: all
@@ -53,6 +54,7 @@ struct State {
     visit("viscous_stress", viscous_stress, "Pa", on_demand);
     visit("viscous_time", viscous_time, "s", on_demand);
     visit("collapsed", collapsed, "", output);
+    visit("rigid", rigid, "", on_demand);
   }
   /// Makes room: nodal fields n, element fields slots.
   void resize(size_t nodes, size_t slots) {

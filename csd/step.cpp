@@ -16,6 +16,7 @@ void sum_forces(Model& m, double t, double dt) {
   if (ph.filter) mean.given = &ph.filter->smooth(ph.elements, s);  // sec. 2.1
   const Reference reference{mesh.X, ph.resting};
   ph.energy.viscosity += internal_force(ph.elements, mean, s, &reference);  // eqs (1)-(13), (15)
+  if (ph.rigid) ph.rigid->after_elements(ph.elements, s);
   if (ph.loads) ph.loads->add(mesh, t, s);                                  // eqs (15), (18)
 }
 
@@ -39,6 +40,7 @@ void for_conditions(Model& m, std::initializer_list<int> turns, const Work& work
 void on_force(Model& m, double dt) {
   for_conditions(m, {0, 1, 2}, [&](auto& c) { c.on_force(m.state, dt); });
   if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
+  if (m.physics.rigid) m.physics.rigid->take_forces(m.state);
 }
 void before_drift(Model& m, double dt) {
   for_conditions(m, {1, 2, 0}, [&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); });
@@ -60,26 +62,33 @@ void first_forces(Model& m) {
 
 void step(Model& m, double dt) {
   auto& s = m.state;
+  auto& rigid = m.physics.rigid;
   if (dt != s.dt) {  // the product form v^(n-1/2) v^(n+1/2) is conserved by steps of one length: book its jump
     if (const auto& ranks = m.physics.elements.ranks) ranks->complete(s);
     m.physics.energy.initial -= kinetic_product(s, s.dt) - kinetic_product(s, dt);
   }
   kick(s, 0.5 * dt);  // eq (14)
+  if (rigid) rigid->kick(s, 0.5 * dt);
   before_drift(m, dt);
+  if (rigid) rigid->meet_walls(m.physics.conditions, s, dt);
   book_half_work(m, dt);
   drift(s, dt);
+  if (rigid) rigid->drift(s, dt);
   sum_forces(m, s.t + dt, dt);
   on_force(m, dt);
   book_half_work(m, dt);
   kick(s, 0.5 * dt);  // eq (14)
+  if (rigid) rigid->kick(s, 0.5 * dt);
   after_kick(m, dt);
   s.t += dt, s.dt = dt, s.step += 1;
   if (m.physics.cracks) m.physics.cracks->advance(m);  // sec. 3, eq (16)
+  if (rigid) rigid->renew(m);
 }
 
 double stable_step(Model& m) {
   auto& [mesh, topology, s, ph] = m;
-  const double elements = ph.time_step.stable(ph.elements, s);
+  double elements = ph.time_step.stable(ph.elements, s);
+  if (std::isinf(elements) && ph.rigid) elements = ph.rigid->accurate_step();
   double omega2 = 0;  // of springs: frequencies of sums of stiffnesses are at most sums of squares
   for (const auto& kind : ph.conditions)
     std::visit(

@@ -119,6 +119,7 @@ Resting::State look_at(const Elements& el, int block, int body, const MeanStress
                        const State& s) {
   const Resting& resting = reference.resting;
   const Resting::State before = resting.state[size_t(block)];
+  if (before == Resting::rigid) return before;
   if (before == Resting::reached || !is_at_rest(el, block, body, how, reference.X, s)) return Resting::reached;
   const bool can_skip = resting.skip && before != Resting::unseen && !el.blocks.border.of(block);
   return can_skip ? Resting::skipped : Resting::computed;
@@ -136,7 +137,7 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
     if (reference) {
       const Resting::State now = look_at(el, block, body, how, *reference, s);
       reference->resting.state[size_t(block)] = now;
-      if (now == Resting::skipped) return;
+      if (now == Resting::skipped || now == Resting::rigid) return;
       rests = now == Resting::computed;
     }
     std::visit(

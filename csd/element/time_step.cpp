@@ -63,9 +63,13 @@ template <class M>
   const Pack xi = Pack(0.5) * beta * sqrt(omega2), grown = sqrt(Pack(1) + xi * xi) + xi;
   return omega2 * grown * grown;
 }
+/// 0 for elements of rigid bodies, which bound nothing.
+Pack unless_rigid(const State& s, Pack value, SlotId first) {
+  return s.rigid.size() > 0 ? select(Pack::load(&s.rigid[first]) > Pack(0), Pack(0), value) : value;
+}
 /// Bounds of a pack of elements.
 Pack omega2_of(const State& s, const Field<double, SlotId>& distortion, SlotId first) {
-  const Pack omega2 = Pack::load(&s.omega2[first]) * Pack::load(&distortion[first]);
+  const Pack omega2 = unless_rigid(s, Pack::load(&s.omega2[first]) * Pack::load(&distortion[first]), first);
   return s.viscous_time.size() > 0 ? damped_omega2(omega2, Pack::load(&s.viscous_time[first])) : omega2;
 }
 
@@ -80,7 +84,7 @@ BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int
     const SlotId slot(block * lanes + l);
     omega2 = max(omega2_of(s, distortion, slot), omega2);  // not a number: not taken
     volume = select(Pack::load(&s.volume[slot]) > Pack(0), volume, Pack(0));
-    collapsed = max(Pack::load(&s.collapsed[slot]), collapsed);
+    collapsed = max(unless_rigid(s, Pack::load(&s.collapsed[slot]), slot), collapsed);
   }
   BlockState r{0, any(volume <= Pack(0)), any(collapsed > Pack(0))};
   for (int i = 0; i < Pack::size; ++i) r.omega2 = omega2[i] > r.omega2 ? omega2[i] : r.omega2;

@@ -16,7 +16,7 @@ namespace bw::csd {
 /// refreshes leave them as they are and pass over blocks far from limiting the step.
 class TimeStep {
  public:
-  /// s. Needs the results of internal_force at s.x.
+  /// s; infinite if all elements are rigid. Needs the results of internal_force at s.x.
   double stable(const Elements& elements, const State& s);
   /// Of the last call. Ties: lowest slot.
   SlotId limiting() const { return limiting_; }

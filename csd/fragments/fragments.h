@@ -37,6 +37,7 @@ class Fragments {
   /// Place of the element's fragment in the list, which is ordered by id.
   const Field<int32_t, ElemId>& label() const { return label_; }
   int64_t id(int label) const { return known_[size_t(label)].id; }
+  double birth(int label) const { return known_[size_t(label)].birth; }  ///< s
 
   /// Everything about the fragments at positions x [m], velocities v [m/s], lumped masses m [kg] of the nodes and mean
   /// equivalent plastic strain of the elements.

@@ -157,6 +157,12 @@ void Ranks::follow(const std::vector<char>& is_needed_everywhere, State& s) {
   }
 }
 
+void Ranks::follow_also(const std::vector<char>& is_needed_everywhere, State& s) {
+  std::vector<char> all = is_everywhere_;
+  for (size_t n = 0; n < all.size(); ++n) all[n] |= is_needed_everywhere[n];
+  follow(all, s);
+}
+
 void Ranks::append_copies(std::span<const NodeSplit> splits, State& s) {
   for (const NodeSplit& split : splits) {  // a child of a border node may be one rank's alone: no harm
     const size_t p = size_t(split.parent);

@@ -64,6 +64,8 @@ class Ranks {
   // --- nodes
   /// From now on s follows this rank's nodes and those marked [node], which are the same on all ranks; s is complete.
   void follow(const std::vector<char>& is_needed_everywhere, State& s);
+  /// Those marked too, from now on; s is complete at them.
+  void follow_also(const std::vector<char>& is_needed_everywhere, State& s);
   void follow_all(State& s) { follow(std::vector<char>(home_.size(), 1), s); }
   /// Nodes were split.
   void append_copies(std::span<const NodeSplit> splits, State& s);

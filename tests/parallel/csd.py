@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """csd on 1, 2 and 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | bar | coupled | errors ...]"""
+    csd.py BUILD_FOLDER [cracks | rigid | bar | coupled | errors ...]"""
 import os
 import pathlib
 import sys
@@ -72,6 +72,19 @@ def cracks():
     return faults + ([] if opened > 100 and pieces > 3 else ["cracks: nothing cracks"]) + ([] if exact else ["cracks: the fields are not exact"])
 
 
+RIGID = (CRACKS.replace('"26 us"', '"30 us"') + '[solid.rigid]\nelements = 60\nbodies = ["plate"]\nswitch_times = ["20 us", "24 us"]\n'
+         + '[[solid.body]]\nname = "plate"\nmesh = {kind = "box", lower = [0, 0, "0.07 m"], upper = ["20 mm", "20 mm", "75 mm"], cells = [3, 3, 2]}\n'
+         + 'material = {kind = "neo_hooke", density = 7760.0, young_modulus = "206 GPa", poisson_ratio = 0.3}\nvelocity = [0.0, 0.0, "500 m/s"]\n'
+         + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, "78 mm"]\nnormal = [0.0, 0.2, -1.0]\nfriction = "coulomb"\nrestitution = 0.5\n')
+
+
+def rigid():
+    faults, directory = compare("rigid", RIGID, LAYOUTS)
+    table = history(directory / "solid_history.csv")
+    print(f"rigid: {table['rigid_fragments'][-1]:.0f} of {table['fragments'][-1]:.0f} fragments are rigid")
+    return faults + ([] if table["rigid_fragments"][-1] > 3 and table["contact_work"][-1] < 0 else ["rigid: nothing becomes rigid or meets the wall"])
+
+
 def bar():
     return compare("bar", BAR, LAYOUTS)[0]
 
@@ -97,7 +110,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "bar": bar, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "rigid": rigid, "bar": bar, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in groups[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "csd/load/conditions/reaction.h"
 #include "csd/load/sets.h"
+#include "csd/load/table.h"
 
 namespace bw::csd {
 
 /// A rigid plane that no node crosses. A node that would is put on it and loses its normal velocity: an inelastic
 /// impact of the lumped mass, whose energy is booked. It stays while its body as a whole moves towards the plane;
 /// afterwards it leaves when it is pulled. (The published Taylor bars hold the foot on the wall, VALIDATION S7; free to
-/// lift, its rim curls up.)
+/// lift, its rim curls up.) It may move, with a velocity that a table varies in time. Nodes of rigid bodies are not its
+/// affair: the bodies meet it as a whole (csd/fragments/impact.h).
 struct RigidWall {
   static constexpr auto name = "rigid_wall";
-  Vec3 point{}, normal{};
+  Vec3 point{}, normal{}, velocity{};
   std::string friction = "none", separation = "rebound", nodes, place;
-  double coefficient = 0.1;
+  double coefficient = 0.1, restitution = 0;
+  std::optional<Table> factor;
   Reaction reaction;
 
   template <class K>
@@ -32,6 +36,12 @@ struct RigidWall {
              "rebound: nodes in contact stay while their body's momentum leads to the wall, then each leaves when it "
              "is pulled; "
              "node: each leaves when it is pulled, from the start");
+    k.optional("restitution", restitution, dim::none,
+               "of rigid bodies: normal velocity of a point after its impact over that before; at most 1. Deformable "
+               "bodies bounce by their own stiffness");
+    k.expect(restitution >= 0 && restitution <= 1, "restitution", "a number from 0 to 1");
+    k.optional("velocity", velocity, dim::velocity, "of the wall, times `factor`");
+    describe_factor(k, factor);
     k.optional("nodes", nodes, "name of the node set that the wall stops; empty: all nodes");
     k.expect(norm(normal) > 0, "normal", "a direction other than (0, 0, 0)");
     if (!k.is_manual()) place = k.where("nodes"), normal = unit(normal);
@@ -39,7 +49,11 @@ struct RigidWall {
   void select(const Mesh& mesh) {
     std::vector<NodeId> set;
     for (int n = 0; n < mesh.node_count(); ++n) set.push_back(NodeId(n));
-    if (!nodes.empty()) set = node_set(mesh, nodes, place);
+    if (!nodes.empty()) {
+      set = node_set(mesh, nodes, place);
+      is_stopped_.assign(size_t(mesh.node_count()), 0);
+      for (NodeId n : set) is_stopped_[size_t(n)] = 1;
+    }
     std::vector<char> at(size_t(mesh.node_count()), 0);
     for (size_t i = 0; i < reaction.nodes.size(); ++i) at[size_t(reaction.nodes[i])] = touches_[i];
     body_.assign(size_t(mesh.node_count()), 0);
@@ -53,31 +67,43 @@ struct RigidWall {
     momentum_.assign(size_t(*std::max_element(body_.begin(), body_.end())) + 1, 0);
     reaction.renew(set, size_t(mesh.node_count()));
   }
+  /// Nodes of rigid bodies [node], from now on; later nodes are none.
+  void leave(const std::vector<char>& is_rigid) { is_left_ = is_rigid; }
+  bool stops(NodeId n) const { return is_stopped_.empty() || is_stopped_[size_t(n)]; }
+  const Vec3& moves() const { return w_; }  ///< m/s, in the present step
+
   void before_drift(State& s, double dt) {
+    w_ = (factor ? factor->at(s.t + 0.5 * dt) : 1.0) * velocity;
     for (size_t i = 0; i < reaction.nodes.size(); ++i) {
       const NodeId n = reaction.nodes[i];
-      const double gap = dot(s.x[n] - point, normal), v_n = dot(s.v[n], normal);
+      if (is_left(n)) continue;
+      const Vec3 v = s.v[n] - w_;
+      const double gap = dot(s.x[n] - point, normal), v_n = dot(v, normal);
       if (gap + dt * v_n >= 0) continue;
       touches_[i] = 1;
-      reaction.set_velocity(s, n, (-gap / dt) * normal + sliding(s.v[n], -v_n));  // ends on the plane
+      reaction.set_velocity(s, n, w_ + ((-gap / dt) * normal + sliding(v, -v_n)));  // ends on the plane
     }
   }
   void on_force(State& s, double dt) {
+    point += dt * w_;
     std::fill(momentum_.begin(), momentum_.end(), 0);
     for (size_t n = 0; n < body_.size(); ++n)
-      momentum_[size_t(body_[n])] += s.m[NodeId(int64_t(n))] * dot(s.v[NodeId(int64_t(n))], normal);
+      if (!is_left(NodeId(int64_t(n))))
+        momentum_[size_t(body_[n])] += s.m[NodeId(int64_t(n))] * dot(s.v[NodeId(int64_t(n))] - w_, normal);
     for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      if (!touches_[i]) continue;
       const NodeId n = reaction.nodes[i];
+      if (is_left(n)) touches_[i] = 0, reaction.R[i] = {};
+      if (!touches_[i]) continue;
       const double f_n = dot(s.f[n], normal);
       touches_[i] = f_n < 0 || (separation == "rebound" && momentum_[size_t(body_[size_t(n)])] < 0);
       reaction.take_force(s, i, !touches_[i] ? Vec3{} : held(s, n, f_n, dt), dt);
-      if (touches_[i]) reaction.set_velocity(s, n, friction == "stick" ? Vec3{} : along(s.v[n]));
+      if (touches_[i]) reaction.set_velocity(s, n, w_ + (friction == "stick" ? Vec3{} : along(s.v[n] - w_)));
     }
   }
   void after_kick(State&, double) {}
 
  private:
+  bool is_left(NodeId n) const { return size_t(n) < is_left_.size() && is_left_[size_t(n)]; }
   Vec3 along(const Vec3& v) const { return v - dot(v, normal) * normal; }
   /// The largest part of `wish` that friction allows for `pressing`, impulses or forces alike.
   Vec3 limited(const Vec3& wish, double pressing) const {
@@ -94,9 +120,12 @@ struct RigidWall {
   Vec3 held(const State& s, NodeId n, double f_n, double dt) const {
     if (friction == "stick") return s.f[n];
     if (friction == "none" || dt == 0) return f_n * normal;
-    return f_n * normal + limited(along(s.f[n] + (s.m[n] / dt) * s.v[n]), -f_n);
+    return f_n * normal + limited(along(s.f[n] + (s.m[n] / dt) * (s.v[n] - w_)), -f_n);
   }
+  Vec3 w_;                        // m/s, of the wall in the present step
   std::vector<char> touches_;     // per reaction.nodes
+  std::vector<char> is_stopped_;  // per node; empty: all
+  std::vector<char> is_left_;     // per node: of a rigid body
   std::vector<int32_t> body_;     // per node
   std::vector<double> momentum_;  // kg m/s along the normal, per body
 };

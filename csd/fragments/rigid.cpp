@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/fragments/rigid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/app/error.h"
+#include "common/parallel/loop.h"
+#include "csd/fragments/impact.h"
+#include "csd/model.h"
+
+namespace bw::csd {
+namespace {
+
+double* history_of(const Elements& el, State& s, SlotId slot, size_t components) {
+  const int body = el.body_of(slot);
+  const size_t block = size_t(el.blocks.row_of(body, slot / lanes));
+  return s.history[size_t(body)].data() + block * 8 * components * lanes + slot % lanes;
+}
+size_t components_of(const Elements& el, SlotId slot) {
+  return std::visit([]<class M>(const M&) { return size_t(M::components); }, el.materials[size_t(el.body_of(slot))]);
+}
+
+}  // namespace
+
+Rigid::Rigid(const RigidInput& input, const std::vector<std::string>& body_names, const Mesh& mesh)
+    : input_(input),
+      motion_(input.motion == "six_dof" ? RigidBody::Motion::six_dof : RigidBody::Motion::translation),
+      is_switched_(body_names.size(), 0),
+      is_rigid_(size_t(mesh.node_count()), 0) {
+  for (const std::string& name : input.bodies) {
+    const auto it = std::find(body_names.begin(), body_names.end(), name);
+    if (it == body_names.end())
+      throw InputError(
+          fmt::format("{}: there is no body \"{}\"; there are: {}", input.place, name, fmt::join(body_names, ", ")));
+    is_switched_[size_t(it - body_names.begin())] = 1;
+  }
+}
+
+void Rigid::start(Model& m) {
+  const Fragments& f = fragments(m);
+  whole_.assign(size_t(f.count()), 0);
+  for (const int32_t label : f.label()) ++whole_[size_t(label)];
+  const auto pieces = switched_pieces(m);
+  const auto held = held_nodes(m.physics, m.mesh);
+  for (const Piece& piece : pieces)
+    for (const ElemId e : piece.elems)
+      for (const NodeId n : m.mesh.hex[e])
+        if (held[size_t(n)]) throw InputError(fmt::format("{}: a condition holds nodes of a rigid body", input_.place));
+  if (pieces.empty()) return;
+  freeze(m, pieces);
+  renew_marks(m);
+}
+
+void Rigid::kick(State& s, double h) {
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
+    bodies_[size_t(i)].kick(h);
+    bodies_[size_t(i)].move_nodes(s.v);
+  });
+}
+
+void Rigid::meet_walls(std::vector<ConditionKind>& conditions, State& s, double dt) {
+  std::vector<RigidWall*> walls;
+  for (auto& condition : conditions)
+    if (auto* wall = std::get_if<RigidWall>(&condition)) walls.push_back(wall);
+  if (walls.empty()) return;
+  std::vector<Touch> touches;
+  std::vector<RigidWall*> touched;
+  for (RigidBody& body : bodies_) {
+    touches.clear(), touched.clear();
+    for (RigidWall* wall : walls) {
+      const Vec3& n = wall->normal;
+      const double reach = dt * (norm(body.velocity() - wall->moves()) + norm(body.spin()) * body.radius());
+      if (dot(body.centre() - wall->point, n) > body.radius() + reach) continue;
+      const double friction = wall->friction == "none" ? 0 : wall->friction == "stick" ? 1e300 : wall->coefficient;
+      for (size_t i = 0; i < body.nodes().size(); ++i) {
+        if (!wall->stops(body.nodes()[i])) continue;
+        const double gap = dot(s.x[body.nodes()[i]] - wall->point, n);
+        if (gap > 2 * reach) continue;
+        touches.push_back({body.arm(i), n, wall->moves(), std::max(gap, 0.0) / dt, wall->restitution, friction});
+        touched.push_back(wall);
+      }
+    }
+    if (!resolve(body, touches)) continue;
+    for (size_t i = 0; i < touches.size(); ++i) {
+      const Touch& t = touches[i];
+      touched[i]->reaction.impulse += t.impulse;
+      touched[i]->reaction.work += 0.5 * dot(t.impulse, t.before + body.velocity_at(t.arm));
+    }
+    body.move_nodes(s.v);
+  }
+}
+
+void Rigid::drift(State& s, double dt) {
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
+    RigidBody& body = bodies_[size_t(i)];
+    body.drift(dt);
+    body.place_nodes(s.x);
+    body.move_nodes(s.v);
+  });
+}
+
+void Rigid::after_elements(const Elements& el, State& s) {
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
+    for (const NodeId n : bodies_[size_t(i)].nodes()) s.f[n] = {};
+  });
+  for (const Kept& kept : kept_) {
+    double* history = history_of(el, s, kept.slot, kept.values.size() / 8);
+    for (size_t i = 0; i < kept.values.size(); ++i) history[i * lanes] = kept.values[i];
+  }
+}
+
+void Rigid::take_forces(State& s) {
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) { bodies_[size_t(i)].take_forces(s.m, s.f); });
+}
+
+double Rigid::accurate_step() const {
+  double step = 1e300;
+  for (const RigidBody& body : bodies_) {
+    constexpr double slow = 1;  // m/s: what rests may begin to move
+    step = std::min({step, 0.1 * body.radius() / (slow + norm(body.velocity())), 0.05 / (norm(body.spin()) + 1e-6)});
+  }
+  return step;
+}
+
+/// Which elements are rigid, for the loops over elements; and what they must not change.
+void Rigid::renew_marks(Model& m) {
+  Elements& el = m.physics.elements;
+  State& s = m.state;
+  s.rigid = Field<double, SlotId>(size_t(el.blocks.slot_count()));
+  is_rigid_.assign(size_t(m.mesh.node_count()), 0);
+  elements_ = 0;
+  for (const auto& elems : elems_) {
+    elements_ += int64_t(elems.size());
+    for (const ElemId e : elems) {
+      s.rigid[el.blocks.slot[e]] = 1;
+      for (const NodeId n : m.mesh.hex[e]) is_rigid_[size_t(n)] = 1;
+    }
+  }
+  kept_.clear();
+  for (int block = 0; block < el.blocks.block_count(); ++block) {
+    const SlotId first(block * lanes);
+    const int used = el.blocks.used[size_t(block)];
+    int count = 0;
+    for (int l = 0; l < lanes; ++l) {
+      s.rigid[SlotId(first + l)] = s.rigid[el.blocks.slot[el.blocks.elem[SlotId(first + l)]]];
+      if (l < used) count += s.rigid[SlotId(first + l)] > 0;
+    }
+    m.physics.resting.set_rigid(block, count == used, el.blocks.block_count());
+    if (count == 0 || count == used || !el.blocks.is_own(block)) continue;
+    const size_t components = components_of(el, first);
+    for (int l = 0; l < used; ++l) {
+      const SlotId slot(first + l);
+      if (s.rigid[slot] == 0) continue;
+      Kept kept{slot, std::vector<double>(8 * components)};
+      const double* history = history_of(el, s, slot, components);
+      for (size_t i = 0; i < kept.values.size(); ++i) kept.values[i] = history[i * lanes];
+      kept_.push_back(std::move(kept));
+    }
+  }
+  if (el.ranks) el.ranks->follow_also(is_rigid_, s);
+  for (auto& condition : m.physics.conditions)
+    if (auto* wall = std::get_if<RigidWall>(&condition)) wall->leave(is_rigid_);
+}
+
+}  // namespace bw::csd

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragments that move as rigid bodies: in the step (csd/step.cpp), and who becomes one. A fragment is a component by
+// shared nodes, so a node is of one rigid body or of none. On several ranks every rank follows the nodes of all of
+// them and moves them all alike.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/math/units.h"
+#include "csd/fragments/fragments.h"
+#include "csd/fragments/rigid_body.h"
+#include "csd/load/conditions/list.h"
+
+namespace bw::csd {
+
+struct Model;
+struct State;
+struct Physics;
+struct Elements;
+
+/// [solid.rigid]
+struct RigidInput {
+  int elements = 0, every = 10;
+  double age = 0, stress = 0;
+  std::string motion = "six_dof", place;
+  std::vector<std::string> bodies;
+  std::vector<double> switch_times;
+  template <class K>
+  void describe(K& k) {
+    k.optional("elements", elements,
+               "a fragment of at most so many elements becomes rigid; 0: none does by itself. Bodies as they were at "
+               "the start are no fragments, and fragments with held nodes (conditions but walls, springs and drag) "
+               "stay as they are");
+    k.optional("age", age, dim::time, "it must have been apart for so long");
+    k.optional("stress", stress, dim::pressure,
+               "and the mean over its volume of the von Mises stress must be below; 0: any");
+    k.choice("motion", motion, {"six_dof", "mean_force"},
+             "six_dof: momentum and angular momentum are kept; mean_force: the mean of the forces accelerates all its "
+             "nodes alike (the paper's), its spin is lost");
+    k.optional("every", every, "steps from one look for new ones to the next");
+    k.optional("bodies", bodies, "names of bodies that are rigid from the start");
+    k.optional("switch_times", switch_times, dim::time,
+               "when these become deformable, rigid again and so on, at the step that reaches the time");
+    k.expect(elements >= 0, "elements", "a number >= 0");
+    k.expect(age >= 0, "age", "a time >= 0");
+    k.expect(stress >= 0, "stress", "a stress >= 0");
+    k.expect(every >= 1, "every", "a number >= 1");
+    bool rises = true;
+    for (size_t i = 1; i < switch_times.size(); ++i) rises = rises && switch_times[i] > switch_times[i - 1];
+    k.expect(rises, "switch_times", "times that rise");
+    k.expect(switch_times.empty() || !bodies.empty(), "switch_times", "`bodies` that they are for");
+    if (!k.is_manual()) place = k.where("bodies");
+  }
+};
+
+class Rigid {
+ public:
+  /// body_names of the mesh's bodies. InputError for a name that isn't one.
+  Rigid(const RigidInput& input, const std::vector<std::string>& body_names, const Mesh& mesh);
+
+  /// At the start, forces known: bodies that are rigid from then on. InputError if nodes of theirs are held.
+  void start(Model& m);
+  /// At the end of a step: new ones, and those whose time has come. Costs nothing while there is nothing to look at.
+  void renew(Model& m);
+
+  // --- in the step, in this order
+  void kick(State& s, double h);  ///< after the nodes' own
+  void meet_walls(std::vector<ConditionKind>& conditions, State& s, double dt);
+  void drift(State& s, double dt);  ///< after the nodes' own: places, and velocities as they have turned
+  void after_elements(const Elements& el, State& s);  ///< nodes bear no internal force, flow is undone
+  void take_forces(State& s);                         ///< once all loads and conditions have added theirs
+  /// Bound of the step [s] where no element gives one: the fastest turns by 0.05, or flies a tenth of its radius.
+  double accurate_step() const;
+
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
+  std::vector<RigidBody>& bodies() { return bodies_; }
+  /// [node] 1: of a rigid body.
+  const std::vector<char>& is_rigid() const { return is_rigid_; }
+  bool is_rigid(NodeId n) const { return size_t(n) < is_rigid_.size() && is_rigid_[size_t(n)]; }
+  int64_t elements() const { return elements_; }  ///< that are rigid now
+
+ private:
+  struct Piece {  // label of the fragment and its elements, ascending
+    int32_t label;
+    std::vector<ElemId> elems;
+  };
+  struct Kept {  // history of a rigid element in a block that has others
+    SlotId slot;
+    std::vector<double> values;
+  };
+  const Fragments& fragments(Model& m);
+  std::vector<Piece> candidates(Model& m);
+  void keep_calm(Model& m, std::vector<Piece>& pieces);
+  void freeze(Model& m, const std::vector<Piece>& pieces);
+  void release(Model& m);
+  void renew_marks(Model& m);
+  std::vector<Piece> pieces_of(Model& m, const std::vector<char>& is_label_wanted);
+  std::vector<Piece> switched_pieces(Model& m);
+
+  RigidInput input_;
+  RigidBody::Motion motion_;
+  std::vector<char> is_switched_;           // [mesh's body] named in `bodies`
+  size_t next_switch_ = 0;                  // into switch_times
+  std::optional<Fragments> own_fragments_;  // without cracks
+  std::vector<int64_t> whole_;              // [label at the start] elements
+  std::vector<RigidBody> bodies_;           // in the order in which they became
+  std::vector<std::vector<ElemId>> elems_;  // [body]
+  std::vector<char> is_rigid_;              // [node]
+  std::vector<Kept> kept_;
+  int64_t elements_ = 0, opened_ = -1;  // faces at the last look
+  bool is_waiting_ = false;             // for age or stress
+};
+
+}  // namespace bw::csd

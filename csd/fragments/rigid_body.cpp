@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/fragments/rigid_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bw::csd {
+
+Attitude Attitude::by(const Vec3& angle) {
+  const double a = norm(angle);
+  if (a == 0) return {};
+  return {std::cos(0.5 * a), (std::sin(0.5 * a) / a) * angle};
+}
+
+Mat3 Attitude::matrix() const {
+  const double xx = u.x * u.x, yy = u.y * u.y, zz = u.z * u.z;
+  return {{{1 - 2 * (yy + zz), 2 * (u.x * u.y - w * u.z), 2 * (u.x * u.z + w * u.y)},
+           {2 * (u.x * u.y + w * u.z), 1 - 2 * (xx + zz), 2 * (u.y * u.z - w * u.x)},
+           {2 * (u.x * u.z - w * u.y), 2 * (u.y * u.z + w * u.x), 1 - 2 * (xx + yy)}}};
+}
+
+namespace {
+
+/// Turns the body by the midpoint rule over h; P: angular momentum in its frame.
+void turn(const Mat3& inverse_inertia, double h, Attitude& q, Vec3& P) {
+  Vec3 next = P, angle;
+  const double round_off = 1e-16 * norm(P);
+  for (int i = 0; i < 50; ++i) {
+    angle = h * (inverse_inertia * (0.5 * (P + next)));
+    const Vec3 better = Attitude::by(-angle).matrix() * P;
+    const double change = norm(better - next);
+    next = better;
+    if (change <= round_off) break;
+  }
+  P = next;
+  q = q * Attitude::by(angle);
+}
+
+}  // namespace
+
+RigidBody::RigidBody(std::vector<NodeId> nodes, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v,
+                     const Field<double, NodeId>& m, Motion motion)
+    : nodes_(std::move(nodes)), motion_(motion) {
+  const Vec3 origin = x[nodes_.front()];  // far from (0, 0, 0) digits would be lost
+  for (NodeId n : nodes_) mass_ += m[n], x_ += m[n] * (x[n] - origin), v_ += m[n] * v[n];
+  x_ = origin + x_ / mass_, v_ = v_ / mass_;
+  Mat3 inertia;
+  for (NodeId n : nodes_) {
+    const Vec3 r = x[n] - x_;
+    arm_.push_back(r);
+    radius_ = std::max(radius_, norm(r));
+    if (motion_ == Motion::translation) continue;
+    L_ += m[n] * cross(r, v[n] - v_);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) inertia(i, j) += m[n] * ((i == j ? dot(r, r) : 0.0) - r[i] * r[j]);
+  }
+  if (motion_ == Motion::six_dof) inverse_inertia_ = inverse(inertia);
+  renew_spin();
+}
+
+void RigidBody::renew_spin() { omega_ = turned_ * (inverse_inertia_ * (transpose(turned_) * L_)); }
+
+Vec3 RigidBody::response(const Vec3& at, const Vec3& from, const Vec3& impulse) const {
+  const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * cross(from, impulse)));
+  return impulse / mass_ + cross(turning, at);
+}
+
+void RigidBody::push(const Vec3& arm, const Vec3& impulse) {
+  v_ += impulse / mass_;
+  if (motion_ == Motion::six_dof) L_ += cross(arm, impulse), renew_spin();
+}
+
+void RigidBody::take_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f) {
+  F_ = T_ = {};
+  for (size_t i = 0; i < nodes_.size(); ++i) F_ += f[nodes_[i]], T_ += cross(arm(i), f[nodes_[i]]);
+  if (motion_ == Motion::translation) T_ = {};
+  const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
+  for (size_t i = 0; i < nodes_.size(); ++i) f[nodes_[i]] = m[nodes_[i]] * (F_ / mass_ + cross(turning, arm(i)));
+}
+
+void RigidBody::kick(double h) {
+  v_ += (h / mass_) * F_;
+  if (T_ == Vec3{}) return;
+  L_ += h * T_;
+  renew_spin();
+}
+
+void RigidBody::drift(double dt) {
+  x_ += dt * v_;
+  if (L_ == Vec3{}) return;
+  static const double p = 1 / (4 - std::cbrt(4.0));  // [Suzuki 1990]
+  Vec3 P = transpose(turned_) * L_;
+  for (const double part : {p, p, 1 - 4 * p, p, p}) turn(inverse_inertia_, part * dt, q_, P);
+  const double size = std::sqrt(q_.w * q_.w + dot(q_.u, q_.u));
+  q_ = {q_.w / size, q_.u / size};
+  turned_ = q_.matrix();
+  renew_spin();
+}
+
+void RigidBody::place_nodes(Field<Vec3, NodeId>& x) const {
+  for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = x_ + arm(i);
+}
+void RigidBody::move_nodes(Field<Vec3, NodeId>& v) const {
+  for (size_t i = 0; i < nodes_.size(); ++i) v[nodes_[i]] = velocity_at(arm(i));
+}
+
+}  // namespace bw::csd
