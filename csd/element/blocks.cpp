@@ -5,6 +5,7 @@
 
 #include "common/app/error.h"
 #include "common/math/pack.h"
+#include "csd/mesh/order.h"
 
 namespace bw::csd {
 
@@ -44,53 +45,6 @@ void colour(const Mesh& mesh, const std::vector<Chunk>& chunks, Blocks& b) {
     b.colours[free].push_back(chunk);
     for (NodeId n : nodes) taken[size_t(n)].push_back(char(free));
   }
-}
-
-/// Distance along a Hilbert curve of 2^21 cells a side [Skilling 2004].
-uint64_t hilbert_key(uint32_t x, uint32_t y, uint32_t z) {
-  constexpr int bits = 21;
-  uint32_t X[3] = {x, y, z};
-  for (uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {  // inverse undo
-    const uint32_t p = q - 1;
-    for (auto& Xi : X) {
-      if (Xi & q) {
-        X[0] ^= p;
-      } else {
-        const uint32_t t = (X[0] ^ Xi) & p;
-        X[0] ^= t, Xi ^= t;
-      }
-    }
-  }
-  X[1] ^= X[0], X[2] ^= X[1];  // Gray encode
-  uint32_t t = 0;
-  for (uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
-    if (X[2] & q) t ^= q - 1;
-  for (auto& Xi : X) Xi ^= t;
-  uint64_t key = 0;
-  for (int b = bits - 1; b >= 0; --b)
-    for (uint32_t Xi : X) key = key << 1 | (Xi >> b & 1);
-  return key;
-}
-
-/// New order of the elements: order[new] = old.
-std::vector<ElemId> element_order(const Mesh& mesh) {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const Vec3& X : mesh.X)
-    for (int d = 0; d < 3; ++d) low[d] = std::min(low[d], X[d]), high[d] = std::max(high[d], X[d]);
-  const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-300});
-  std::vector<uint64_t> key(size_t(mesh.elem_count()));
-  std::vector<ElemId> order(key.size());
-  for (int e = 0; e < mesh.elem_count(); ++e) {
-    Vec3 centre;
-    for (NodeId n : mesh.hex[ElemId(e)]) centre += 0.125 * mesh.X[n];
-    const Vec3 r = (2097151.0 / size) * (centre - low);
-    key[size_t(e)] = hilbert_key(uint32_t(r.x), uint32_t(r.y), uint32_t(r.z));
-    order[size_t(e)] = ElemId(e);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](ElemId a, ElemId b) {
-    return mesh.body[a] != mesh.body[b] ? mesh.body[a] < mesh.body[b] : key[size_t(a)] < key[size_t(b)];
-  });
-  return order;
 }
 
 }  // namespace

@@ -111,8 +111,8 @@ void for_blocks(const Blocks& blocks, const Work& work) {
 /// Blocks of the mesh as it is numbered; bodies 0 .. body_count-1.
 Blocks make_blocks(const Mesh& mesh, int body_count);
 
-/// Numbers elements by body and then along a Hilbert curve through their centroids, nodes by first use. Global ids keep
-/// the input's order; sets follow.
+/// Numbers elements by element_order (csd/mesh/order.h), nodes by first use. Global ids keep the input's order; sets
+/// follow.
 void renumber_for_locality(Mesh& mesh);
 
 }  // namespace bw::csd

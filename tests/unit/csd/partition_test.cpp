@@ -24,9 +24,7 @@ TEST(Partition, loads_are_equal_and_borders_short) {
     int border = 0;
     for (const auto& t : touches) border += std::accumulate(t.begin(), t.end(), 0) > 1;
     for (const int count : elements) EXPECT_NEAR(count, 5184 / ranks, 0.02 * 5184 / ranks) << ranks << " ranks";
-    // a third of the bar ends inside blocks, which follow the curve and are not divided: its border is rougher
-    const double roughness = ranks == 3 ? 1.75 : 1.5;
-    EXPECT_LE(border, roughness * 169 * (ranks - 1)) << ranks << " ranks";
+    EXPECT_LE(border, 1.5 * 169 * (ranks - 1)) << ranks << " ranks";
     record(("border_nodes_" + std::to_string(ranks)).c_str(), border);
     EXPECT_EQ(rank, assign_blocks(mesh, blocks, ranks));
   }
