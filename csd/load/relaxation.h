@@ -11,7 +11,7 @@ namespace bw::csd {
 
 /// [solid.static]
 struct RelaxationCase {
-  double tolerance = 1e-4, rate = 0, loads_until = 0;
+  double tolerance = 1e-6, rate = 0, loads_until = 0;
   template <class K>
   void describe(K& k) {
     k.optional(

@@ -14,6 +14,7 @@ BUILD = pathlib.Path(os.environ.get("BREAKWAVE_BUILD", ROOT / "build"))
 WORK = BUILD / "verify"
 Entry = collections.namedtuple("Entry", "name quick meaning run")
 CASES = {}
+FINEST = False  # --all: cases that refine add their finest mesh
 
 
 class RunFailed(Exception):
@@ -26,6 +27,11 @@ def case(name, quick=False):
         CASES[name] = Entry(name, quick, function.__doc__.strip().split("\n")[0], function)
         return function
     return register
+
+
+def finest():
+    """True where the finest meshes are asked for too."""
+    return FINEST
 
 
 # --- rows ---------------------------------------------------------------------------------------------------------------------------

@@ -119,7 +119,7 @@ def s8():
     speed = 7e-3 / (end - 0.5 * ramp)
     text = (f"[time]\nend = {end!r}\n" + output("0 s", "2 us")
             + body("bar", '{kind = "cylinder", radius = "6.297566 mm", upper_radius = "6.413 mm", length = "26.667 mm", across = 10, along = 30, '
-                   + 'grading = 5.0, sector = "quarter"}',
+                   + 'grading = 10.0, sector = "quarter"}',
                    f'material = {{kind = "j2", density = 7850.0, young_modulus = {e_young!r}, poisson_ratio = {nu!r}, flow = {{kind = "saturation", '
                    + 'yield_stress = "450 MPa", hardening = "129.24 MPa", saturation_stress = "715 MPa", saturation_exponent = 16.93}}\n')
             + roller("lower", 2) + roller("cut_x", 0) + roller("cut_y", 1)

@@ -273,17 +273,10 @@ def riemann_integral_fast(eos, rho_i, p_i, rho, points=24):
 
 
 # --- solid ---------------------------------------------------------------------------------------------------------------------------
-def ring_stop(r0, v0, e_young, rho, sigma_y, hardening):
-    """S9: thin ring in free flight, uniaxial Kirchhoff hoop stress, elastic then plastic: ln(r/r0) and time at the first stop.
-    The hoop stress is tau(eps) with log strain; the mass per reference length stays: r'' = -tau/(rho r)."""
-    plastic_slope = e_young * hardening / (e_young + hardening)
-    eps_y = sigma_y / e_young
-
-    def tau(eps):
-        return e_young * eps if eps < eps_y else sigma_y + plastic_slope * (eps - eps_y)
-
+def first_stop(r0, v0, acceleration):
+    """ln(r/r0) and time at which r'' = acceleration(r), from r0 at speed v0, first stops (Runge-Kutta)."""
     def rate(state):
-        return np.array([state[1], -tau(math.log(state[0] / r0)) / (rho * state[0])])
+        return np.array([state[1], acceleration(state[0])])
     state, t, dt = np.array([r0, float(v0)]), 0.0, r0 / v0 * 1e-5 * 5
     while True:
         k1 = rate(state)
@@ -295,6 +288,66 @@ def ring_stop(r0, v0, e_young, rho, sigma_y, hardening):
             part = state[1] / (state[1] - new[1])
             return math.log((state[0] + part * (new[0] - state[0])) / r0), t + part * dt
         state, t = new, t + dt
+
+
+def ring_stop(r0, v0, e_young, rho, sigma_y, hardening):
+    """S9: thin ring in free flight, uniaxial Kirchhoff hoop stress, elastic then plastic: ln(r/r0) and time at the first stop.
+    The hoop stress is tau(eps) with log strain; the mass per reference length stays: r'' = -tau/(rho r)."""
+    plastic_slope = e_young * hardening / (e_young + hardening)
+    eps_y = sigma_y / e_young
+
+    def acceleration(r):
+        eps = math.log(r / r0)
+        return -(e_young * eps if eps < eps_y else sigma_y + plastic_slope * (eps - eps_y)) / (rho * r)
+    return first_stop(r0, v0, acceleration)
+
+
+def sphere_stop(r0, v0, density, young, poisson, yield_stress, hardening):
+    """S9: thin sphere in free flight, equal Kirchhoff stress tau in both directions: r'' = -2 tau/(rho r). Each strain is
+    eps = tau (1 - nu)/E + alpha/2, and tau = sigma_y + K alpha once it flows (the equivalent plastic strain is twice each)."""
+    elastic = young / (1 - poisson)
+    eps_y = yield_stress / elastic
+    plastic_slope = 1 / (1 / elastic + 1 / (2 * hardening))
+
+    def acceleration(r):
+        eps = math.log(r / r0)
+        return -2 * (elastic * eps if eps < eps_y else yield_stress + plastic_slope * (eps - eps_y)) / (density * r)
+    return first_stop(r0, v0, acceleration)
+
+
+def thick_ring(r_i, wall, rho, sigma_y, hardening, pressure, eps_limit, points=24):
+    """Plane-strain incompressible ring, rigid-plastic with linear hardening, under pressure(t) inside: time, velocity and radius of
+    the wall's middle when its strain is eps_limit. With v = q/r: rho (q' ln(r_o/r_i) + q/2 d/dt ln(r_o/r_i)) = p - int (2/sqrt 3)
+    sigma_y(alpha)/r dr and alpha(r) = (2/sqrt 3) ln(r/R), r^2 - R^2 the same for all rings of material."""
+    factor, nodes, weights = 2 / math.sqrt(3), *np.polynomial.legendre.leggauss(points)
+    outer2 = (r_i + wall) ** 2
+    start = 0.5 * (r_i + r_i + wall)
+
+    def radii(shift):  # shift: growth of r^2
+        return math.sqrt(r_i ** 2 + shift), math.sqrt(outer2 + shift)
+
+    def rate(t, state):
+        shift, q = state
+        a, b = radii(shift)
+        r = 0.5 * (a + b) + 0.5 * (b - a) * nodes
+        alpha = factor * np.log(r / np.sqrt(r * r - shift))
+        strength = factor * 0.5 * (b - a) * np.sum(weights * (sigma_y + hardening * alpha) / r)
+        turn = 0.5 * q * q * (1 / b ** 2 - 1 / a ** 2)
+        return np.array([2 * q, ((pressure(t) - strength) / rho - turn) / math.log(b / a)])
+    state, t, dt, before = np.zeros(2), 0.0, 2e-8, (0.0, 0.0, 0.0, start)
+    while t < 1e-3:
+        k1 = rate(t, state)
+        k2 = rate(t + dt / 2, state + dt / 2 * k1)
+        k3 = rate(t + dt / 2, state + dt / 2 * k2)
+        k4 = rate(t + dt, state + dt * k3)
+        state, t = state + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4), t + dt
+        radius = 0.5 * sum(radii(state[0]))
+        now = (factor * math.log(radius / start), t, state[1] * 0.5 * sum(1 / r for r in radii(state[0])), radius)
+        if now[0] >= eps_limit:
+            part = (eps_limit - before[0]) / (now[0] - before[0])
+            return tuple(x + part * (y - x) for x, y in zip(before[1:], now[1:]))
+        before = now
+    raise ValueError("the ring stops before the limit")
 
 
 def loaded_ring(r_i, wall, rho, sigma_y, hardening, peak, decay_length, speed, eps_limit, t_end=None):
@@ -383,3 +436,63 @@ def plastic_wave(density, young, poisson, yield_stress, hardening, speed):
 
 def young_and_poisson(bulk, shear):
     return 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+
+
+def cook_direct(n, young, poisson):
+    """S4: Cook's membrane, plane strain, small strain, n x n four-node elements of mean dilatation (Q1/P0), unit force: v of (48, 60) and
+    (48, 52) from the assembled linear system."""
+    shear, bulk = young / (2 * (1 + poisson)), young / (3 * (1 - 2 * poisson))
+    corners = np.array([(0, 0), (48, 44), (48, 60), (0, 44)], dtype=float)
+    a, b = (k.ravel() / n for k in np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij"))
+    x = np.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b], axis=1) @ corners
+    stiffness = np.zeros((2 * len(x), 2 * len(x)))
+    deviator = 2 * shear * np.array([[2 / 3, -1 / 3, 0], [-1 / 3, 2 / 3, 0], [0, 0, 0.5]])
+    gauss = [(s, t) for s in (-1 / math.sqrt(3), 1 / math.sqrt(3)) for t in (-1 / math.sqrt(3), 1 / math.sqrt(3))]
+    for i in range(n):
+        for j in range(n):
+            nodes = np.array([i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1])
+            element, dilatation, area = np.zeros((8, 8)), np.zeros(8), 0.0
+            for s, t in gauss:
+                slopes = 0.25 * np.array([[t - 1, s - 1], [1 - t, -1 - s], [1 + t, 1 + s], [-1 - t, 1 - s]])
+                jacobian = slopes.T @ x[nodes]
+                weight, gradient = np.linalg.det(jacobian), slopes @ np.linalg.inv(jacobian).T
+                strain = np.zeros((3, 8))
+                strain[0, 0::2] = strain[2, 1::2] = gradient[:, 0]
+                strain[1, 1::2] = strain[2, 0::2] = gradient[:, 1]
+                element += weight * strain.T @ deviator @ strain
+                dilatation += weight * (strain[0] + strain[1])
+                area += weight
+            element += bulk / area * np.outer(dilatation, dilatation)
+            at = np.stack([2 * nodes, 2 * nodes + 1], axis=1).ravel()
+            stiffness[np.ix_(at, at)] += element
+    force = np.zeros(2 * len(x))
+    force[2 * np.arange(n * (n + 1), (n + 1) ** 2) + 1] = 1 / n
+    force[[2 * n * (n + 1) + 1, -1]] /= 2
+    free = np.arange(2 * (n + 1), 2 * len(x))
+    v = np.zeros(2 * len(x))
+    v[free] = np.linalg.solve(stiffness[np.ix_(free, free)], force[free])
+    return v[-1], v[2 * (n * (n + 1) + n // 2) + 1]
+
+
+# --- the pressure filter on n x n equal elements, in row order -------------------------------------------------------------------------
+def filter_mean(p):
+    """A p: the mean over an element's nodes of the nodes' means over their elements."""
+    nodes = np.zeros((p.shape[0] + 1, p.shape[1] + 1))
+    count = np.zeros_like(nodes)
+    corners = [(np.s_[i:i + p.shape[0]], np.s_[j:j + p.shape[1]]) for i in (0, 1) for j in (0, 1)]
+    for at in corners:
+        nodes[at] += p
+        count[at] += 1
+    return sum((nodes / count)[at] for at in corners) / 4
+
+
+def undo_filter(p, strength):
+    """The field q with (1 - strength) q + strength A q = p."""
+    size = p.size
+    matrix = np.stack([(1 - strength) * e + strength * filter_mean(e.reshape(p.shape)).ravel() for e in np.eye(size)], axis=1)
+    return np.linalg.solve(matrix, p.ravel()).reshape(p.shape)
+
+
+def roughness(p):
+    """chi: sum |p - A p| / sum |p|."""
+    return np.abs(p - filter_mean(p)).sum() / np.abs(p).sum()
