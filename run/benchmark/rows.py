@@ -7,16 +7,15 @@ import sys
 from verification import fluid, reference, solid
 from verification.case import BUILD, ROOT, WORK, RunFailed, output, run
 
+from . import precision
+from .row import row
+
 sys.path.insert(0, str(ROOT / "run"))
 import fields  # noqa: E402
 
 CORES = len(os.sched_getaffinity(0))
 THREADS = (1, CORES) if CORES > 1 else (1,)
 MACHINE = {}
-
-
-def row(name, value, unit, threads=1, ranks=1):
-    return dict(name=name, value=float(value), unit=unit, threads=threads, ranks=ranks)
 
 
 def build(target):
@@ -264,4 +263,4 @@ def exchange_200k_ms():
 
 
 GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
-          "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": []}
+          "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS}

@@ -111,24 +111,34 @@ def s7b():
     yield close("heat over plastic work", table["heat"][-1] / table["plastic_work"][-1], 0.9, 1e-9)
 
 
-@case("S8")
-def s8():
-    """Necking of a cylindrical bar (Simo), an octant, pulled in 1 ms with its ends held: neck radius and axial force"""
+def necking(across, along):
+    """An octant of Simo's bar, pulled by 7 mm in 1 ms with its ends held; its lower end is the neck."""
     e_young, nu = reference.young_and_poisson(164.206e9, 80.1938e9)
     ramp, end = 0.1e-3, 1e-3
     speed = 7e-3 / (end - 0.5 * ramp)
-    text = (f"[time]\nend = {end!r}\n" + output("0 s", "2 us")
-            + body("bar", '{kind = "cylinder", radius = "6.297566 mm", upper_radius = "6.413 mm", length = "26.667 mm", across = 10, along = 30, '
-                   + 'grading = 10.0, sector = "quarter"}',
-                   f'material = {{kind = "j2", density = 7850.0, young_modulus = {e_young!r}, poisson_ratio = {nu!r}, flow = {{kind = "saturation", '
-                   + 'yield_stress = "450 MPa", hardening = "129.24 MPa", saturation_stress = "715 MPa", saturation_exponent = 16.93}}\n')
+    return (f"[time]\nend = {end!r}\n" + output("0 s", "2 us")
+            + f'[[solid.body]]\nname = "bar"\nmesh = {{kind = "cylinder", radius = "6.297566 mm", upper_radius = "6.413 mm", length = "26.667 mm", across = {across}, '
+            + f'along = {along}, grading = 10.0, sector = "quarter"}}\n'
+            + f'material = {{kind = "j2", density = 7850.0, young_modulus = {e_young!r}, poisson_ratio = {nu!r}, flow = {{kind = "saturation", '
+            + 'yield_stress = "450 MPa", hardening = "129.24 MPa", saturation_stress = "715 MPa", saturation_exponent = 16.93}}\n'
             + roller("lower", 2) + roller("cut_x", 0) + roller("cut_y", 1)
             + prescribed("upper", (0.0, 0.0, speed), "xyz", f"factor = {{times = [0.0, {ramp!r}], factors = [0.0, 1.0]}}\n")
             + probe("neck", "node", position=[6.297566e-3, 0.0, 0.0]) + probe("end", "node", position=[0.0, 0.0, 26.667e-3])
             + probe("pull", "wall_force", condition=0))
-    result = run("S8", text, only="solid")
+
+
+def neck_history(result):
+    """Elongation, radius of the neck, and the table."""
     table = fields.history(result.directory / "solid_history.csv")
-    u, neck, force = table["end z"] - table["end z"][0], table["neck x"], np.abs(table["pull fz"])
+    return table["end z"] - table["end z"][0], table["neck x"], table
+
+
+@case("S8")
+def s8():
+    """Necking of a cylindrical bar (Simo), an octant, pulled in 1 ms with its ends held: neck radius and axial force"""
+    result = run("S8", necking(10, 30), only="solid")
+    u, neck, table = neck_history(result)
+    force = np.abs(table["pull fz"])
     corner = np.pi / 2 / 10 / 2  # half the angle between neighbouring nodes of the outline: a polygon's area is less than the circle's
     smooth = np.convolve(force, np.ones(5) / 5, mode="same") * corner / (np.sin(corner) * np.cos(corner))
     seconds = result.seconds

@@ -421,6 +421,23 @@ def flow_history(name, t, eqps, share=0.9, start=293.0):
     return stress, temperature
 
 
+def wave_number(omega, h, c, dt, kind, strength):
+    """S2b: k of plane waves of frequency omega on elements of length h with lumped masses, central differences in time and the pressure filter:
+    sin(omega dt/2)/dt = c/h sin(k h/2) g, g^2 the share of stiffness that the filter leaves, with A = cos^2(k h/2). The filter acts on the
+    mean stress alone, whose share of c^2 is kappa/(kappa + 4/3 mu) = (1 + nu)/(3 (1 - nu)); nu = 0.3 here."""
+    volume = 1.3 / (3 * 0.7)
+    power = {"off": 0, "plain": 1, "self_adjoint": 2}[kind]
+
+    def excess(k):
+        left = 1 - strength * math.sin(k * h / 2) ** 2
+        return c / h * math.sin(k * h / 2) * math.sqrt(1 - volume + volume * left ** power) - math.sin(omega * dt / 2) / dt
+    low, high = 0.5 * omega / c, 2 * omega / c
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) < 0 else (low, middle)
+    return low
+
+
 def plastic_wave(density, young, poisson, yield_stress, hardening, speed):
     """S2c: waves of small strain in uniaxial strain, linear hardening, body stopped from `speed` by a wall: elastic and plastic speeds,
     Hugoniot elastic limit and the stress behind both."""

@@ -71,9 +71,9 @@ PAPER_STEEL = dict(density=7760.0, young=641.5e9, poisson=0.3, yield_stress=1.28
 TAYLOR_COPPER = dict(density=8930.0, young=117e9, poisson=0.35, yield_stress=400e6, hardening=100e6)
 
 
-def taylor_shape(across):
+def taylor_shape(across, threads=0):
     """The bar of S7, `across` elements over the radius and 10 times as many along: its history, foot radius and length [mm], plastic strain."""
-    result = run(f"S7_{across}", taylor(across, 10 * across), only="solid")
+    result = run(f"S7_{across}", taylor(across, 10 * across), only="solid", threads=threads)
     solid = fields.Solid(fields.series(result.directory, "solid")[-1][1])
     x = solid.points
     foot = np.hypot(x[:, 0], x[:, 1])[x[:, 2] < 1e-6].max() * 1e3
@@ -137,7 +137,7 @@ def t16():
     for name, text in (("4 across", taylor(4, 40)), ("split, 2 across", taylor(2, 10, split=True)), ("8 across (S7)", taylor(8, 80))):
         stable, collapsed, seconds = largest_stable_multiple(name.replace(" ", "_"), text)
         yield between(f"{name}: largest stable multiple (of {', '.join(format(m, 'g') for m in MULTIPLES)})", stable, 0.9, 1.6, seconds)
-        yield at_most(f"{name}: elements with a collapsed point at 0.9", collapsed, 1e9)
+        yield at_most(f"{name}: elements with a collapsed point at 0.9", collapsed, 0)
 
 
 @case("C12")

@@ -20,11 +20,11 @@ def free_ring(around):
             f"around = {around}, through = 1, along = 1}}\n")
 
 
-def fly(name, steel, speed, stop, mesh, extra="", centre=False):
+def fly(name, steel, speed, stop, mesh, extra="", centre=False, threads=0):
     """In free flight until a little after the expected stop: history of the mean radius."""
     away = ', away_from = "centre"' if centre else ""
     result = run(name, f"[time]\nend = {1.05 * stop!r}\n" + output("0 s", "0 s") + '[[solid.body]]\nname = "ring"\n' + mesh
-                 + f"motion = {{radial = {speed!r}{away}}}\n" + j2(**steel) + extra, only="solid")
+                 + f"motion = {{radial = {speed!r}{away}}}\n" + j2(**steel) + extra, only="solid", threads=threads)
     return result, fields.history(result.directory / "solid_history.csv")
 
 
