@@ -81,8 +81,7 @@ Model build(const Case& cs, const Comm& comm) {
   State s;
   Physics ph = build_physics(cs.solid, mesh, comm, s);
   set_initial_velocities(cs.solid, mesh, s);
-  // dynamic relaxation and mass scaling look at all nodes in each step
-  if (ph.elements.ranks && !ph.relaxation && !ph.mass_scaling)
+  if (ph.elements.ranks && !ph.relaxation)  // dynamic relaxation looks at all nodes in each step
     ph.elements.ranks->follow(nodes_needed_everywhere(mesh, cs.solid.loads, ph.conditions), s);
   Model model{std::move(mesh), std::move(topology), std::move(s), std::move(ph)};
   first_forces(model);

@@ -31,7 +31,7 @@ double MassScaling::enforce(const Mesh& mesh, Elements& el, TimeStep& time_step,
     for (size_t e = 0; e < omega2.size(); ++e)
       if (const SlotId slot = el.blocks.slot[ElemId(int64_t(e))]; el.blocks.is_own(slot))
         omega2[e] = time_step.omega2(s, slot);
-    if (el.ranks) el.ranks->complete(omega2);
+    if (el.ranks) el.ranks->complete(omega2), el.ranks->complete(s);  // velocities, for the energy that comes along
     for (size_t e = 0; e < omega2.size(); ++e)
       if (const double factor = 0.25 * wanted * wanted * omega2[e]; factor > 1)
         add(mesh, el, ElemId(int64_t(e)), 1.01 * factor - 1, s);

@@ -9,8 +9,8 @@
 
 namespace bw::csd {
 
-/// [node] The nodes of conditions and of loaded faces; all nodes for a load or condition that isn't known here to look
-/// at its own nodes alone.
+/// [node] The nodes of conditions (after select), of loaded faces and of loaded elements; all nodes if a load acts on
+/// everything (gravity), or a rigid wall follows the momenta of bodies.
 std::vector<char> nodes_needed_everywhere(const Mesh& mesh, const std::vector<LoadCase>& loads,
                                           const std::vector<ConditionKind>& conditions);
 

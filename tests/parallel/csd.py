@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""csd on 1, 2 and 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | rigid | bar | coupled | errors ...]"""
+"""csd on 1 to 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
+    csd.py BUILD_FOLDER [cracks | rigid | bar | loaded | static | coupled | errors ...]"""
 import os
 import pathlib
 import sys
@@ -36,6 +36,23 @@ BAR = ('[time]\nend = "6 us"\n' + output("3 us", "0.5 us")
        + '[[solid.condition]]\nkind = "rigid_wall"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n'
        + '[[solid.probe]]\nname = "wall"\nkind = "wall_force"\n'
        + '[solid.filter]\nkind = "plain"\nstrength = 0.5\n[solid.viscosity]\nlinear = 0.06\nquadratic = 1.5\n')
+# loads and conditions that look at some nodes only, non-matching bodies tied, mass that is added as elements flatten
+LOADED = ('[time]\nend = "30 us"\n' + output("15 us", "1 us")
+          + '[[solid.body]]\nname = "beam"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["60 mm", "18 mm", "18 mm"], cells = [20, 6, 6]}\n' + solid.COPPER
+          + '[[solid.body]]\nname = "plate"\nmesh = {kind = "box", lower = [0, 0, "18 mm"], upper = ["60 mm", "18 mm", "24 mm"], cells = [30, 9, 3]}\n' + STEEL
+          + '[[solid.load]]\nkind = "traction"\nfaces = ["beam.x_upper"]\ntotal = ["80 kN", "10 kN", "0 N"]\n'
+          + '[[solid.load]]\nkind = "blast"\nfaces = ["plate.z_upper"]\ncentre = ["30 mm", 0, "150 mm"]\ncharge = "100 g"\nstart_time = "-5 us"\n'
+          + '[[solid.load]]\nkind = "body_force"\ndensity = [0.0, 0.0, "-1e9 N/m^3"]\nelements = "plate"\n'
+          + '[[solid.condition]]\nkind = "symmetry"\nnormal = [0.0, 1.0, 0.0]\n'
+          + '[[solid.condition]]\nkind = "displacement"\nnodes = "beam.x_lower"\ndirection = [1.0, 0.0, 0.0]\ntimes = [0.0, "30 us"]\ndisplacements = [0.0, "3 mm"]\n'
+          + '[[solid.condition]]\nkind = "tie"\nnodes = "plate.z_lower"\nfaces = ["beam.z_upper"]\n'
+          + '[[solid.condition]]\nkind = "spring"\nnodes = "beam.z_lower"\nstiffness = "2 MN/m"\ndamping = "20 N s/m"\n'
+          + '[[solid.condition]]\nkind = "damping"\nnodes = "plate.x_upper"\nrate = "1e4 1/s"\n'
+          + '[solid.mass_scaling]\nminimum_step = "STEP"\nlimit = 0.3\n')
+STATIC = ('[time]\nend = "4 ms"\n' + output("0 s", "10 us") + '[solid.static]\ntolerance = 1e-3\n'
+          + '[[solid.body]]\nname = "beam"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["60 mm", "15 mm", "15 mm"], cells = [16, 4, 4]}\n' + STEEL
+          + '[[solid.load]]\nkind = "traction"\nfaces = ["beam.x_upper"]\ntotal = ["0 N", "0 N", "-2 kN"]\n'
+          + '[[solid.condition]]\nkind = "fixed"\nnodes = "beam.x_lower"\n')
 LAYOUTS = [("1", 1), ("1", 2), ("2", 1), ("2", 2), ("4", 1)]
 TOTALS = ("steps", "t", "energies", "masses", "momenta", "counts")
 
@@ -89,6 +106,21 @@ def bar():
     return compare("bar", BAR, LAYOUTS)[0]
 
 
+def loaded():
+    faults, directory = compare("loaded", LOADED.replace("STEP", "0.26 us"), [("1", 1), ("2", 1), ("3", 1), ("2", 2)])
+    values = summary(directory, "solid")
+    added = [value for group in ("masses", "values", "counts") for key, value in values[group].items() if "scal" in key or "added" in key]
+    print(f"loaded: mass scaling {added}")
+    return faults + ([] if added and max(added) > 0 else ["loaded: no mass was added"])
+
+
+def static():
+    faults, directory = compare("static", STATIC, [("1", 1), ("2", 1), ("3", 1), ("2", 2)])
+    status, steps = summary(directory, "solid")["status"], summary(directory, "solid")["steps"]
+    print(f"static: {status} after {steps} steps")
+    return faults + ([] if status == "converged" else ["static: not converged"])
+
+
 def coupled():
     return compare("coupled", runs.SHELL.replace('"30 us"', '"24 us"'), [("1+1", 1), ("2+1", 1)], only=None)[0]
 
@@ -110,7 +142,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "rigid": rigid, "bar": bar, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "rigid": rigid, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in groups[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)
