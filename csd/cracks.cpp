@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/app/log.h"
 #include "common/parallel/loop.h"
 #include "csd/element/results.h"
 #include "csd/model.h"
@@ -10,10 +11,9 @@
 namespace bw::csd {
 
 Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t)
-    : criterion_(input.criterion.model),
-      fracture_(input, mesh),
-      fragments_(mesh, t),
-      fail_(size_t(mesh.elem_count())) {}
+    : criterion_(input.criterion.model), fracture_(input, mesh), fragments_(mesh, t), fail_(size_t(mesh.elem_count())) {
+  if (input.pieces) pieces_.emplace(*input.pieces, mesh);
+}
 
 /// Returns whether any element is broken; then all ranks know all values.
 bool Cracks::update_fail(const Model& m) {
@@ -66,10 +66,65 @@ bool Cracks::advance(Model& m) {
     el.ranks->complete_positions(m.mesh, is_asked, m.state);
   }
   const auto sigma = [&](ElemId e) { return el.ranks ? of_all[size_t(e)] : own(e); };
-  const bool opened =
-      fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_);
-  if (opened) take_over(m, splits_, changed_);
-  return opened;
+  splits_.clear(), changed_.clear();
+  Fracture::Holds holds;
+  if (pieces_) {
+    make_pieces(m);
+    holds = [&](ElemId e) { return pieces_->holds(e); };
+  }
+  fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_, holds);
+  if (splits_.empty()) return false;
+  take_over(m, splits_, changed_);
+  return true;
+}
+
+void Cracks::make_pieces(Model& m) {
+  const std::vector<ElemId> broken =
+      fracture_.broken(m.mesh, m.topology, fail_, [&](ElemId e) { return !pieces_->is_free(e); });
+  std::vector<ElemId> taken;
+  opened_by_pieces_ += pieces_->advance(
+      m.mesh, m.topology, m.state.t, broken, fail_,
+      [&](std::span<const ElemId> elems) { return ring_samples(m, elems); }, splits_, changed_, taken);
+  if (taken.empty()) return;
+  fracture_.retire(taken);
+  const Row& row = pieces_->rows().back();
+  if (warned_ || row.across >= 3) return;
+  warned_ = true;
+  warn("pieces of a width of {:.3g} mm span {:.2g} elements of the mesh: sizes come out right from 3 on (t = {:.6g} s)",
+       1e3 * row.width, row.across, row.t);
+}
+
+/// The same on all ranks.
+std::vector<RingSample> Cracks::ring_samples(const Model& m, std::span<const ElemId> elems) const {
+  const Elements& el = m.physics.elements;
+  const State& s = m.state;
+  const AxisFrame& frame = pieces_->frame();
+  const auto sample = [&](ElemId e) {
+    const SlotId slot = el.blocks.slot[e];
+    RingSample r;
+    for (NodeId n : m.mesh.hex[e]) {
+      while (size_t(n) >= s.x.size()) n = m.mesh.parent[n];  // split off in this step: at its parent's place
+      const Vec3 away = frame.away(s.x[n]);
+      const double radius = norm(away);
+      r.radius += 0.125 * radius;
+      if (radius > 0) r.speed += 0.125 * dot(s.v[n], away) / radius;
+    }
+    r.density = density(el, slot);
+    r.mass = r.density * s.V0[slot];
+    constexpr double plane_strain = 1.1547005383792515;  // 2/sqrt(3): a long case doesn't change its length
+    r.stress = flow_stress(el, s, slot, plane_strain * r.speed / r.radius);
+    return r;
+  };
+  std::vector<RingSample> samples(elems.size());
+  if (el.ranks) {
+    std::vector<char> is_asked(fail_.size(), 0);
+    for (const ElemId e : elems) is_asked[size_t(e)] = 1;
+    const auto all = el.ranks->complete_some<RingSample>(is_asked, sample);
+    for (size_t i = 0; i < elems.size(); ++i) samples[i] = all[size_t(elems[i])];
+  } else {
+    parallel_for(int64_t(elems.size()), [&](int64_t i) { samples[size_t(i)] = sample(elems[size_t(i)]); });
+  }
+  return samples;
 }
 
 void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {

@@ -3,6 +3,8 @@
 // crack changes mass, momentum and energy by nothing but the filter's share, which is booked: nodes get their parent's
 // position, velocity and acceleration.
 #pragma once
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "csd/fracture/fracture.h"
@@ -22,15 +24,22 @@ class Cracks {
   const std::vector<double>& fail() const { return fail_; }
   /// Up to date with all cracks; those that broke off since the last call are born now.
   const Fragments& fragments(const Model& model);
-  int64_t opened_faces() const { return fracture_.opened(); }
+  int64_t opened_faces() const { return fracture_.opened() + opened_by_pieces_; }
+  /// The rings that broke up into pieces; null: the case has none.
+  const Pieces* pieces() const { return pieces_ ? &*pieces_ : nullptr; }
 
  private:
   bool update_fail(const Model& model);
   std::vector<char> near_broken(const Model& model) const;
+  void make_pieces(Model& model);
+  std::vector<RingSample> ring_samples(const Model& model, std::span<const ElemId> elems) const;
   void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
 
   Criteria criterion_;
   Fracture fracture_;
+  std::optional<Pieces> pieces_;
+  int64_t opened_by_pieces_ = 0;
+  bool warned_ = false;
   Fragments fragments_;
   std::vector<double> fail_;  // [element]
   std::vector<NodeSplit> splits_;

@@ -185,6 +185,8 @@ std::string Output::write_fields(Model& m) {
     if (const auto& ranks = m.physics.elements.ranks) ranks->complete(fail);
     cells.push_back(VtkField::scalars("fail", fail));
     cells.push_back(VtkField::integers("frag_id", frag_id));
+    if (const Pieces* pieces = cracks->pieces())
+      cells.push_back(VtkField::integers("bin", std::span<const int32_t>(pieces->bins().data(), n)));
   }
   if (!writes(m)) return "";
   last_dump_ = series_.next_path();
@@ -206,7 +208,10 @@ void Output::write_fragment_table(Model& m) {
       eqps[e] = mean_eqps(el, m.state, slot);
   if (el.ranks) el.ranks->complete(eqps);
   const auto table = m.physics.cracks->fragments(m).table(m.mesh, m.state.x, m.state.v, m.state.m, eqps);
-  if (writes(m)) write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
+  if (!writes(m)) return;
+  write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
+  if (const Pieces* pieces = m.physics.cracks->pieces())
+    write_rows(case_.run.output.directory + "/pieces.csv", pieces->rows());
 }
 
 std::string Output::limiter(const Model& m) const {

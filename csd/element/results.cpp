@@ -122,6 +122,28 @@ bool heats(const Elements& el, int body) {
       el.materials[size_t(body)]);
 }
 
+double flow_stress(const Elements& el, const State& s, SlotId slot, double rate) {
+  const int body = el.body_of(slot);
+  return std::visit(
+      [&]<class M>(const M& material) {
+        double sum = 0;
+        if constexpr (M::plastic)
+          for (int i = 0; i < 8; ++i) {
+            const double* history = history_of<M>(el, s, body, slot) + i * M::components * lanes;
+            if constexpr (requires { material.flow.stress(0.0); })
+              sum += material.flow.stress(history[6 * lanes]);
+            else
+              sum += material.flow.at(material.temperature(history)).stress(history[6 * lanes], rate).value;
+          }
+        return 0.125 * sum;
+      },
+      el.materials[size_t(body)]);
+}
+
+double density(const Elements& el, SlotId slot) {
+  return std::visit([](const auto& material) { return material.density; }, el.materials[size_t(el.body_of(slot))]);
+}
+
 double mean_eqps(const Elements& el, const State& s, SlotId slot) {
   const int body = el.body_of(slot);
   return std::visit(

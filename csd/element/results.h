@@ -38,6 +38,12 @@ StoredEnergy stored_energy(const Elements& elements, const State& s);
 /// Whether the body's material heats by plastic work.
 bool heats(const Elements& elements, int body);
 
+/// Mean flow stress of an element's points at a rate of eqps [1/s] and their present eqps and temperature [Pa]; 0:
+/// nothing flows.
+double flow_stress(const Elements& elements, const State& s, SlotId slot, double rate);
+/// kg/m^3 of reference volume.
+double density(const Elements& elements, SlotId slot);
+
 /// Mean eqps of an element's points (cheap: reads the history only).
 double mean_eqps(const Elements& elements, const State& s, SlotId slot);
 

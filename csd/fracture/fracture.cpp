@@ -15,6 +15,7 @@ Fracture::Fracture(const FractureInput& input, const Mesh& mesh)
     : input_(input),
       weight_(size_t(mesh.elem_count()), 1.0),
       opened_by_(size_t(mesh.elem_count()), 0),
+      is_done_(size_t(mesh.elem_count()), 0),
       seen_step_(size_t(mesh.elem_count()), 0),
       done_step_(size_t(mesh.elem_count()), 0) {
   if (!input.is_weighted) return;
@@ -55,9 +56,9 @@ double Fracture::selection(const Mesh& mesh, const Topology& topology, std::span
   return sum / 8;
 }
 
-std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& topology,
-                                              std::span<const double> fail) {
-  const auto is_loose = [&](ElemId e) {
+std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                                              const Holds& holds) {
+  const auto shares_nothing = [&](ElemId e) {
     const auto& h = mesh.hex[e];
     return std::all_of(h.begin(), h.end(), [&](NodeId n) { return topology.elements(n).size() == 1; });
   };
@@ -65,26 +66,42 @@ std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& 
   const auto look = [&](ElemId e) {
     if (seen_step_[e] == step_) return;
     seen_step_[e] = step_;
-    if (opened_by_[e] < input_.faces_per_element && !is_loose(e) && selection(mesh, topology, fail, e) >= 1)
+    if (is_done_[e] || opened_by_[e] >= input_.faces_per_element || (holds && holds(e))) return;
+    if (shares_nothing(e))
+      is_done_[e] = 1;
+    else if (selection(mesh, topology, fail, e) >= 1)
       broken.push_back(e);
   };
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {
-    if (fail[size_t(i)] < 1) continue;
-    look(ElemId(i));
+    const ElemId near(i);
+    if (fail[size_t(i)] < 1 || is_done_[near]) continue;
+    look(near);
     if (!input_.is_smoothed) continue;
-    for (const NodeId n : mesh.hex[ElemId(i)])
+    for (const NodeId n : mesh.hex[near])
       for (const ElemId e : topology.elements(n)) look(e);
   }
   return broken;
 }
 
+std::vector<ElemId> Fracture::broken(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                                     const Holds& holds) {
+  begin_step(mesh);
+  std::vector<ElemId> list = broken_elements(mesh, topology, fail, holds);
+  std::vector<std::pair<double, ElemId>> order;
+  for (const ElemId e : list) order.push_back({selection(mesh, topology, fail, e), e});
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : mesh.elem_gid[a.second] < mesh.elem_gid[b.second];
+  });
+  for (size_t i = 0; i < list.size(); ++i) list[i] = order[i].second;
+  return list;
+}
+
 bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
                        const std::function<Sym3(ElemId)>& sigma, std::span<const double> fail,
-                       std::vector<NodeSplit>& splits, std::vector<ElemId>& changed) {
-  splits.clear();
-  changed.clear();
+                       std::vector<NodeSplit>& splits, std::vector<ElemId>& changed, const Holds& holds) {
+  const size_t splits_before = splits.size();
   const int64_t elems = mesh.elem_count();
-  BW_CHECK(int64_t(x.size()) == mesh.node_count() && int64_t(fail.size()) == elems);
+  BW_CHECK(int64_t(x.size()) <= mesh.node_count() && int64_t(fail.size()) == elems);
   // a smoothed value is a mean of raw ones, so it reaches 1 only in the one-ring of an element that does
   if (parallel_max(elems, 0.0, [&](int64_t e) { return fail[size_t(e)]; }) < 1) {
     waiting_ = 0;
@@ -99,12 +116,13 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
   };
   std::priority_queue<Candidate> worst;
   const auto consider = [&](ElemId e) {
-    if (done_step_[e] == step_ || opened_by_[e] >= input_.faces_per_element) return;
+    if (is_done_[e] || done_step_[e] == step_ || opened_by_[e] >= input_.faces_per_element || (holds && holds(e)))
+      return;
     if (const double value = selection(mesh, topology, fail, e); value >= 1) worst.push({value, mesh.elem_gid[e], e});
   };
   // most of the broken elements wait: they are found in parallel and are done with, for within a step stresses stay and
   // faces only open
-  const std::vector<ElemId> broken = broken_elements(mesh, topology, fail);
+  const std::vector<ElemId> broken = broken_elements(mesh, topology, fail, holds);
   std::vector<char> can_open(broken.size());
   parallel_for(int64_t(broken.size()), [&](int64_t i) {
     const ElemId e = broken[size_t(i)];
@@ -147,7 +165,7 @@ bool Fracture::advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x,
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  return !splits.empty();
+  return splits.size() > splits_before;
 }
 
 }  // namespace bw::csd

@@ -3,12 +3,14 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/data/field.h"
 #include "common/math/tensor.h"
 #include "csd/fracture/list.h"
+#include "csd/fracture/pieces.h"
 #include "csd/mesh/topology.h"
 
 namespace bw::csd {
@@ -22,11 +24,15 @@ struct FractureInput {
       k.pick("kind", model, "when an element is broken", true);
     }
   } criterion;
+  std::optional<PiecesInput> pieces;
   bool is_smoothed = true, is_weighted = true;
   int faces_per_element = 6;
   template <class K>
   void describe(K& k) {
     k.table("criterion", criterion, "failure value of an element; 1 or more is broken");
+    k.table("pieces", pieces,
+            "break-up of rings about an axis into pieces of a size that statistics give, eq (17); absent: node "
+            "disconnection alone, eq (16)");
     k.optional("smoothing", is_smoothed, "select by the mean over an element's nodes of the mean over their elements");
     k.optional("weighted", is_weighted, "that nodal mean weights elements by volume; false: plain mean");
     k.optional(
@@ -41,14 +47,28 @@ class Fracture {
  public:
   Fracture(const FractureInput& input, const Mesh& mesh);
 
+  /// Whether an element must not be looked at; empty: none.
+  using Holds = std::function<bool(ElemId)>;
+
+  /// Elements whose selection is at least 1, the largest first (ties: lowest elem_gid), but those that are held.
+  std::vector<ElemId> broken(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                             const Holds& holds);
+
   /// One step: broken elements, the worst first (ties: lowest elem_gid), open one face each, eq (16). Failure values
   /// are taken anew around every opened face, for its nodes now average over fewer elements. An element without a
-  /// joined face in tension waits. x: current positions [m] of the nodes; sigma: mean Cauchy stress [Pa] of an element,
-  /// asked for broken elements only, by several threads at once; fail: failure value of each element. Mesh and topology
-  /// are changed; splits: in order, to be passed to State::append_copies; changed: elements with new nodes, ascending.
+  /// joined face in tension waits. x: current positions [m] of the nodes (a younger one lies where its parent does);
+  /// sigma: mean Cauchy stress [Pa] of an element, asked for broken elements only, by several threads at once; fail:
+  /// failure value of each element. Mesh and topology are changed; appends to splits in order, to be passed to
+  /// State::append_copies, and to changed the elements with new nodes, which then is ascending without repetitions.
   /// Returns true if there are any. The same for any number of threads.
   bool advance(Mesh& mesh, Topology& topology, std::span<const Vec3> x, const std::function<Sym3(ElemId)>& sigma,
-               std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed);
+               std::span<const double> fail, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed,
+               const Holds& holds = {});
+
+  /// These never open again, and share no node with any that may.
+  void retire(std::span<const ElemId> elems) {
+    for (const ElemId e : elems) is_done_[e] = 1;
+  }
 
   /// Failure value by which elements are selected: smoothed, or as given.
   double selection(const Mesh& mesh, const Topology& topology, std::span<const double> fail, ElemId e);
@@ -62,11 +82,13 @@ class Fracture {
   double nodal(const Topology& topology, std::span<const double> fail, NodeId n);
   void forget(NodeId n);
   void begin_step(const Mesh& mesh);
-  std::vector<ElemId> broken_elements(const Mesh& mesh, const Topology& topology, std::span<const double> fail);
+  std::vector<ElemId> broken_elements(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                                      const Holds& holds);
 
   FractureInput input_;
   Field<double, ElemId> weight_;
   Field<int8_t, ElemId> opened_by_;  // faces that an element has opened
+  Field<char, ElemId> is_done_;      // retired, or shares no node: nothing can open any more
   // of the present step: nodal means that are known, elements seen or done
   int64_t step_ = 0;
   Field<double, NodeId> mean_;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """csd on 1 to 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | rigid | bar | loaded | static | coupled | errors ...]"""
+    csd.py BUILD_FOLDER [cracks | pieces | rigid | bar | loaded | static | coupled | errors ...]"""
 import os
 import pathlib
 import sys
@@ -29,6 +29,8 @@ CRACKS = ('[time]\nend = "26 us"\n' + output("13 us", "1 us")
           + '[[solid.condition]]\nkind = "fixed"\nnodes = "block.x_lower"\n'
           + '[[solid.probe]]\nname = "wall"\nkind = "element"\nposition = ["59 mm", 0.0, 0.0]\n'
           + '[[solid.probe]]\nname = "ring"\nkind = "ring"\nlower = "-5 mm"\nupper = "5 mm"\n')
+# the same in pieces of Mott's size but for one end, on an axis of its own
+PIECES = CRACKS.replace('limit = 0.05}', 'limit = 0.05}\npieces = {kind = "mott", least_speed = "5 m/s", axis = [1, 0, 0], range = ["-45 mm", "80 mm"]}')
 # the foot against a rigid wall, viscosity, plain filter: sums that every step makes
 BAR = ('[time]\nend = "6 us"\n' + output("3 us", "0.5 us")
        + '[[solid.body]]\nname = "bar"\nmesh = {kind = "cylinder", radius = "3.2 mm", length = "32.4 mm", across = 3, along = 24}\n'
@@ -102,6 +104,13 @@ def rigid():
     return faults + ([] if table["rigid_fragments"][-1] > 3 and table["contact_work"][-1] < 0 else ["rigid: nothing becomes rigid or meets the wall"])
 
 
+def pieces():
+    faults, directory = compare("pieces", PIECES, LAYOUTS)
+    rows = history(directory / "pieces.csv")
+    print(f"pieces: {len(rows['bins'])} rows, {rows['bins'].sum():.0f} bins")
+    return faults + ([] if rows["bins"].sum() > 10 else ["pieces: nothing breaks up"])
+
+
 def bar():
     return compare("bar", BAR, LAYOUTS)[0]
 
@@ -142,7 +151,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "rigid": rigid, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in groups[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)
