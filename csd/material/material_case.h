@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "csd/material/failure_data.h"
 #include "csd/material/list.h"
 
 namespace bw::csd {
@@ -92,11 +93,12 @@ struct Overrides {
   }
 };
 
-/// A material with its name, where its numbers come from, and its shock data.
+/// A material with its name, where its numbers come from, its shock data and what is known of its failure.
 struct LibraryEntry {
   std::string name, source;
   MaterialKinds material;
   MieGruneisen hugoniot{};  ///< c0 = 0: not known
+  FailureData failure{};
 };
 /// All of them, in the manual's order.
 const std::vector<LibraryEntry>& material_library();
@@ -104,19 +106,32 @@ const std::vector<LibraryEntry>& material_library();
 struct MaterialCase {
   MaterialKinds choice;
   std::string library = "none";
+  FailureData failure;
 
   template <class K>
   void describe(K& k) {
     std::vector<std::string> names{"none"};
     for (const LibraryEntry& entry : material_library()) names.push_back(entry.name);
     k.choice("library", library, names, "a material by name; keys given beside it replace its numbers");
+    const LibraryEntry* found = nullptr;
     for (const LibraryEntry& entry : material_library())
-      if (entry.name == library) {
-        choice = entry.material;
-        Overrides<K> changes{k, entry.hugoniot};
-        return changes.pick("kind", choice, "material");
-      }
-    k.pick("kind", choice, "material", true);
+      if (entry.name == library) found = &entry;
+    if (found) {
+      choice = found->material, failure = found->failure;
+      Overrides<K> changes{k, found->hugoniot};
+      changes.pick("kind", choice, "material");
+    } else {
+      k.pick("kind", choice, "material", true);
+    }
+    failure.describe(k);
+    if (failure.melting_temperature == 0) failure.melting_temperature = melting_temperature_of_flow();
+  }
+
+  /// K; 0: the flow stress has none.
+  double melting_temperature_of_flow() const {
+    const auto* j2 = std::get_if<J2Case>(&choice);
+    const auto* flow = j2 ? std::get_if<JohnsonCook>(&j2->flow) : nullptr;
+    return flow ? flow->T_melt : 0;
   }
 };
 
