@@ -202,15 +202,23 @@ std::string Output::write_fields(Model& m) {
 void Output::write_fragment_table(Model& m) {
   complete(m);
   const Elements& el = m.physics.elements;
-  std::vector<double> eqps(size_t(m.mesh.elem_count()));
-  for (size_t e = 0; e < eqps.size(); ++e)
-    if (const SlotId slot = el.blocks.slot[ElemId(int64_t(e))]; el.blocks.is_own(slot))
-      eqps[e] = mean_eqps(el, m.state, slot);
+  const bool is_hot = any_heats(el);
+  std::vector<double> eqps(size_t(m.mesh.elem_count())), temperature(is_hot ? eqps.size() : 0);
+  parallel_for(int64_t(eqps.size()), [&](int64_t e) {
+    const SlotId slot = el.blocks.slot[ElemId(e)];
+    if (!el.blocks.is_own(slot)) return;
+    eqps[size_t(e)] = mean_eqps(el, m.state, slot);
+    if (is_hot) temperature[size_t(e)] = evaluate(el, m.state, slot).temperature;
+  });
   if (el.ranks) el.ranks->complete(eqps);
-  const auto table = m.physics.cracks->fragments(m).table(m.mesh, m.state.x, m.state.v, m.state.m, eqps);
+  if (el.ranks && is_hot) el.ranks->complete(temperature);
+  FragmentFields fields{m.state.x, m.state.v, m.state.m, eqps, temperature, {}};
+  if (m.physics.rigid) fields.is_rigid = m.physics.rigid->is_rigid_node();
+  const Fragments& fragments = m.physics.rigid ? m.physics.rigid->fragments(m) : m.physics.cracks->fragments(m);
+  auto table = fragments.table(m.mesh, m.topology, fields);
   if (!writes(m)) return;
-  write_fragments(case_.run.output.directory + "/fragments.csv", m.state.t, table);
-  if (const Pieces* pieces = m.physics.cracks->pieces())
+  write_fragments(case_.run.output.directory + "/fragments", m.state.t, table);
+  if (const Pieces* pieces = m.physics.cracks ? m.physics.cracks->pieces() : nullptr)
     write_rows(case_.run.output.directory + "/pieces.csv", pieces->rows());
 }
 
@@ -243,7 +251,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     if (case_.run.output.fields_every > 0) write_fields(m);
   }
   if (history_) history_->flush();
-  if (m.physics.cracks && !failed) write_fragment_table(m);
+  if ((m.physics.cracks || m.physics.rigid) && !failed) write_fragment_table(m);
   Summary sum;
   sum.case_file = case_.file, sum.title = case_.run.title, sum.status = status, sum.message = message;
   const auto& ranks = m.physics.elements.ranks;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pieces that the mesh has fallen into: elements that hang together by shared nodes.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "csd/mesh/mesh.h"
+#include "csd/mesh/topology.h"
 
 namespace bw::csd {
 
@@ -21,6 +22,51 @@ struct Fragment {
   Vec3 centroid, velocity;                                         ///< m, m/s, of the mass
   Vec3 angular_momentum, spin;                                     ///< kg m^2/s about the centroid, 1/s
   double kinetic_energy = 0, eqps = 0;                             ///< J; mean over the reference volume
+  double temperature = 0;                                          ///< K, likewise; 0: the material has none
+  Vec3 sides;          ///< m, of the box with the same second moments of volume: length, width, thickness
+  double surface = 0;  ///< m^2, faces with no neighbour
+  bool is_rigid = false;
+  double left = -1;  ///< s, when it was retired beyond the given box, -1: it is there
+
+  /// Mean presented area over mass^(2/3) [m^2/kg^(2/3)]; the area is a quarter of the surface, which is exact for
+  /// convex bodies [Cauchy].
+  double shape_factor() const;
+  /// visit(name, unit, value) of every column of the table; value: int64_t or double.
+  template <class Visit>
+  void describe(Visit&& visit) const {
+    const auto vector = [&](std::array<const char*, 3> names, const char* unit, const Vec3& value) {
+      for (int d = 0; d < 3; ++d) visit(names[size_t(d)], unit, value[d]);
+    };
+    visit("id", "1", id);
+    visit("parent", "1", parent);
+    visit("birth", "s", birth);
+    visit("body", "1", int64_t(body));
+    visit("elements", "1", elements);
+    visit("mass", "kg", mass);
+    visit("volume", "m^3", volume);
+    vector({"lower_x", "lower_y", "lower_z"}, "m", lower);
+    vector({"upper_x", "upper_y", "upper_z"}, "m", upper);
+    vector({"x", "y", "z"}, "m", centroid);
+    vector({"v_x", "v_y", "v_z"}, "m/s", velocity);
+    vector({"L_x", "L_y", "L_z"}, "kg m^2/s", angular_momentum);
+    vector({"spin_x", "spin_y", "spin_z"}, "1/s", spin);
+    visit("kinetic_energy", "J", kinetic_energy);
+    visit("eqps", "1", eqps);
+    visit("temperature", "K", temperature);
+    vector({"length", "width", "thickness"}, "m", sides);
+    visit("surface", "m^2", surface);
+    visit("shape_factor", "m^2/kg^(2/3)", shape_factor());
+    visit("rigid", "1", int64_t(is_rigid));
+    visit("left", "s", left);
+  }
+};
+
+/// What the table is made of, at one time.
+struct FragmentFields {
+  const Field<Vec3, NodeId>&x, &v;              ///< m, m/s
+  const Field<double, NodeId>& m;               ///< kg, lumped
+  std::span<const double> eqps, temperature{};  ///< [element] means; no temperature: empty
+  std::span<const char> is_rigid{};             ///< [node]; those beyond are not
 };
 
 class Fragments {
@@ -39,10 +85,8 @@ class Fragments {
   int64_t id(int label) const { return known_[size_t(label)].id; }
   double birth(int label) const { return known_[size_t(label)].birth; }  ///< s
 
-  /// Everything about the fragments at positions x [m], velocities v [m/s], lumped masses m [kg] of the nodes and mean
-  /// equivalent plastic strain of the elements.
-  std::vector<Fragment> table(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v,
-                              const Field<double, NodeId>& m, std::span<const double> eqps) const;
+  /// Everything about the fragments, ordered by id.
+  std::vector<Fragment> table(const Mesh& mesh, const Topology& topology, const FragmentFields& fields) const;
 
  private:
   struct Known {
@@ -58,7 +102,11 @@ class Fragments {
 /// For each element the lowest element that it hangs together with by shared nodes.
 Field<ElemId, ElemId> pieces_by_nodes(const Mesh& mesh);
 
-/// Replaces the file: one row a fragment, ordered by id, header with units. std::runtime_error if it can't be written.
+/// Side lengths, falling, of the box whose second moments about its centre are these per volume [m^2].
+Vec3 box_of(const Mat3& second_moments);
+
+/// Replaces PATH.csv and PATH.h5 (one array a column, their units as attributes of its group): one row a fragment.
+/// std::runtime_error if they can't be written.
 void write_fragments(const std::string& path, double t, std::span<const Fragment> fragments);
 
 }  // namespace bw::csd

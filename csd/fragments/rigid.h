@@ -75,10 +75,12 @@ class Rigid {
 
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   std::vector<RigidBody>& bodies() { return bodies_; }
-  /// [node] 1: of a rigid body.
-  const std::vector<char>& is_rigid() const { return is_rigid_; }
+  /// [node] 1: of a rigid body; later nodes are not.
+  const std::vector<char>& is_rigid_node() const { return is_rigid_; }
   bool is_rigid(NodeId n) const { return size_t(n) < is_rigid_.size() && is_rigid_[size_t(n)]; }
   int64_t elements() const { return elements_; }  ///< that are rigid now
+  /// Up to date with all cracks.
+  const Fragments& fragments(Model& m);
 
  private:
   struct Piece {  // label of the fragment and its elements, ascending
@@ -89,7 +91,6 @@ class Rigid {
     SlotId slot;
     std::vector<double> values;
   };
-  const Fragments& fragments(Model& m);
   std::vector<Piece> candidates(Model& m);
   void keep_calm(Model& m, std::vector<Piece>& pieces);
   void freeze(Model& m, const std::vector<Piece>& pieces);

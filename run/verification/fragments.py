@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cases of fragments: rigid bodies in flight, the switch from deformable to rigid."""
+import sys
+
+import h5py
 import numpy as np
 
-from .case import at_least, at_most, case, close, output, run, unit_rows
+from . import reference
+from .case import BUILD, ROOT, at_least, at_most, case, close, near, output, run, unit_rows
 from .solid import COPPER, fields
+
+sys.path.insert(0, str(ROOT / "run"))
+import fragments as fragment_statistics  # noqa: E402
 
 
 @case("C9", quick=True)
@@ -46,3 +53,74 @@ def t21_rigid():
     yield close("blocks passed over, of 10 in each of 500 steps", summary["counts"]["skipped_rigid_blocks"], 10 * 500, 1e-12, seconds)
     yield close("momentum against the deformable bar", rigid["momentum x"][-1], soft["momentum x"][-1], 1e-12)
     yield at_most("kinetic energy: change of the rigid one", np.abs(rigid["kinetic_energy"] / rigid["kinetic_energy"][0] - 1).max(), 1e-12)
+
+
+def mott_sample(mu, number, seed):
+    return mu * np.random.default_rng(seed).exponential(size=number) ** 2
+
+
+@case("C10", quick=True)
+def c10():
+    """Mott's distribution: its closed numbers, the fit of run/fragments.py on samples of it, the paper's and a shell's mu; polar zones"""
+    for s, number, mass in ((1, 0.3679, 0.9197), (2, 0.1353, 0.6767), (3, 0.0498, 0.4232)):
+        yield near(f"N(>m)/N0 at sqrt(m/mu) = {s}", fragment_statistics.mott_number(s**2, 1, 1), number, 5e-5)
+        yield near(f"mass above over the whole at {s}", fragment_statistics.mott_mass(s**2, 1, 1) / 2, mass, 5e-5)
+    sample = mott_sample(0.330e-3, 18200, 1)
+    fit = fragment_statistics.mott_fit(sample)
+    yield close("fit to 18,200 pieces: mu [g]", 1e3 * fit["mu"], 0.330, 3 * fit["error"] / fit["mu"])
+    yield close("their mean mass over 2 mu", sample.mean() / (2 * fit["mu"]), 1, 0.03)
+    cut = fragment_statistics.mott_fit(sample, 0.2e-3)  # light ones were not collected
+    yield close("fit to those above 0.2 g: mu [g]", 1e3 * cut["mu"], 0.330, 3 * cut["error"] / cut["mu"])
+    yield close("the same: N0", cut["N0"], 18200, 0.05)
+    yield at_most("Kolmogorov's distance, largest of 20 samples of 1,000",
+                  max(fragment_statistics.mott_fit(mott_sample(1e-3, 1000, k))["distance"] for k in range(20)), 1.36 / np.sqrt(1000))
+    one_size = fragment_statistics.mott_fit(np.full(1000, 1e-3) * np.random.default_rng(0).uniform(0.9, 1.1, 1000))
+    yield at_least("the same of pieces of one size: no Mott", one_size["distance"], 0.3)
+    # mu = sqrt(2/rho) (sigma_F/gamma)^1.5 (r/V)^3 [Mott]: a shell's from its calibrated strength, the paper's ring
+    yield close("105 mm shell: mu [g]", 1e3 * reference.mott_mu(7850.0, 800e6, 65.0, 0.0778, 994.0), 0.330, 0.01)
+    yield close("the paper's ring, r = 0.1 m, V = 1,500 m/s, at 0.3 strain: mu [g]", 1e3 * reference.mott_mu(7760.0, 1.283e9 + 0.3 * 8.657e9, 56.0, 0.1, 1500.0), 2.743, 0.001)
+    # a sphere that flies apart evenly: a zone's share of mass is its share of solid angle
+    directions = np.random.default_rng(3).normal(size=(200000, 3))
+    speeds = 1000 * directions / np.linalg.norm(directions, axis=1)[:, None]
+    zones = fragment_statistics.polar_zones(speeds, np.full(len(speeds), 1e-3), np.array([0, 0, 1.0]), 18)
+    even = 200 / (4 * np.pi)
+    yield at_most("evenly flying pieces: mass per solid angle off the even one, worst of zones", max(abs(z["mass_per_sr"] / even - 1) for z in zones), 0.06)
+    yield close("mass of all zones", sum(zone["mass"] for zone in zones), 200.0, 1e-12)
+    path = BUILD / "verify" / "C10.zdata"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    mass = mott_sample(1e-3, len(speeds), 5)
+    zones = fragment_statistics.polar_zones(speeds, mass, np.array([0, 0, 1.0]), 18)
+    fragment_statistics.write_zdata(path, zones, mass, fragment_statistics.mass_classes(mass, 12))
+    _, rows = fragment_statistics.read_zdata(path)
+    yield close("Z-data: mass by classes, read back", sum(n * m for row in rows for n, m in row[5]), mass.sum(), 1e-5)
+    yield close("Z-data: pieces by classes", sum(n for row in rows for n, _ in row[5]), len(mass), 1e-12)
+
+
+BURST = ('[time]\nend = "30 us"\n' + output("0 us", "5 us")
+         + '[solid.fracture]\ncriterion = {kind = "eqps", limit = 0.05}\n[solid.rigid]\nelements = 30\n'
+         + '[[solid.body]]\nname = "shell"\nmesh = {kind = "shell_of_revolution", shape = "sphere", radius = "62 mm", wall = "6 mm", around = 24, through = 2}\n'
+         + '[solid.body.material]\nkind = "j2"\ndensity = 7760.0\nyoung_modulus = "206 GPa"\npoisson_ratio = 0.3\n'
+         + 'flow = {kind = "linear", yield_stress = "412 MPa", hardening = "2.78 GPa"}\n'
+         + '[[solid.load]]\nkind = "pressure"\nfaces = ["shell.inner"]\ntimes = [0.0, "40 us"]\npressures = ["1 GPa", "0.5 GPa"]\n')
+
+
+@case("C10T")
+def c10_table():
+    """The fragment table of a burst shell: sums against the run's totals, CSV against HDF5, its statistics"""
+    result = run("C10T", BURST, only="solid")
+    table, summary = fields.history(result.directory / "fragments.csv"), fields.summary(result.directory, "solid")
+    yield close("pieces in the table against the run's count", len(table["id"]), summary["counts"]["fragments"], 1e-12, result.seconds)
+    yield at_least("pieces", len(table["id"]), 50)
+    yield close("mass of the pieces against the run's", table["mass"].sum(), summary["masses"]["solid"], 1e-10)
+    yield close("kinetic energy likewise", table["kinetic_energy"].sum(), summary["energies"]["kinetic"], 1e-10)
+    p = np.stack([(table["mass"] * table[f"v_{axis}"]).sum() - summary["momenta"][axis] for axis in "xyz"])
+    yield at_most("momentum: difference over the sum of sizes", np.linalg.norm(p) / (table["mass"] * np.abs(table["v_x"])).sum(), 1e-10)
+    yield at_most("energy residual over the external work", abs(summary["energies"]["residual"]) / summary["energies"]["external"], 0.01)
+    with h5py.File(result.directory / "fragments.h5") as file:
+        group = file["fragments"]
+        worst = max(np.abs(group[name][()] - values).max() / max(1e-300, np.abs(values).max()) for name, values in table.items() if name != "t")
+    yield at_most("HDF5 against CSV, worst column", worst, 1e-11)
+    found = fragment_statistics.statistics(result.directory, pictures=False)
+    yield at_least("rigid pieces", table["rigid"].sum(), 30)
+    yield at_most("length over thickness of one-element pieces, largest", (table["length"] / table["thickness"])[table["elements"] == 1].max(), 20)
+    yield close("mass in the polar zones", fields.history(result.directory / "fragment_zones.csv")["mass"].sum(), found["mass"], 1e-10)

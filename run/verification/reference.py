@@ -513,3 +513,8 @@ def undo_filter(p, strength):
 def roughness(p):
     """chi: sum |p - A p| / sum |p|."""
     return np.abs(p - filter_mean(p)).sum() / np.abs(p).sum()
+
+
+def mott_mu(density, strength, gamma, radius, speed):
+    """mu of Mott's distribution [kg] for a ring of this strength, gamma, radius and speed at break-up: sqrt(2/rho) (sigma_F/gamma)^1.5 (r/V)^3 [Mott 1943]."""
+    return math.sqrt(2 / density) * (strength / gamma) ** 1.5 * (radius / speed) ** 3
