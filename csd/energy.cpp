@@ -42,7 +42,7 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
   r.heat = stored.heat, r.eqps_max = stored.eqps_max, r.temperature_max = stored.temperature_max;
   r.filter = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
   r.viscosity = ph.energy.viscosity, r.external = ph.energy.external, r.cracks = ph.energy.cracks;
-  r.rigidization = ph.energy.rigidization;
+  r.rigidization = ph.energy.rigidization, r.left = ph.energy.left;
   for (const auto& condition : ph.conditions) {
     const double work = std::visit([](const auto& c) { return c.reaction.work; }, condition);
     r.conditions += work;
@@ -52,8 +52,8 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
   }
   if (ph.relaxation) r.conditions += ph.relaxation->reaction.work, r.damping += ph.relaxation->reaction.work;
   if (ph.mass_scaling) r.mass_scaling = ph.mass_scaling->added_energy();
-  r.residual = kinetic_product(s, s.dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks + r.rigidization -
-               ph.energy.initial - r.external - r.conditions - r.mass_scaling;
+  r.residual = kinetic_product(s, s.dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks +
+               r.rigidization + r.left - ph.energy.initial - r.external - r.conditions - r.mass_scaling;
   return r;
 }
 

@@ -27,6 +27,7 @@ struct EnergyBooks {
   double external = 0;      ///< work of the loads
   double viscosity = 0;     ///< spent in bulk viscosity
   double cracks = 0;        ///< set free by cracks
+  double left = 0;          ///< kinetic, of fragments that left the box
   double rigidization = 0;  ///< of inner motion, lost when bodies became rigid
   double initial = 0;       ///< kinetic and stored at the start
 };
@@ -35,7 +36,7 @@ struct EnergyBooks {
 /// initial - brought in.
 struct EnergyRow {
   double kinetic = 0, elastic = 0, plastic = 0, filter = 0, collapse = 0, viscosity = 0, external = 0, conditions = 0,
-         cracks = 0, rigidization = 0, mass_scaling = 0, residual = 0;
+         cracks = 0, rigidization = 0, left = 0, mass_scaling = 0, residual = 0;
   double heat = 0;                               ///< part of plastic
   double contact = 0, springs = 0, damping = 0;  ///< of which conditions: rigid walls, springs, drag
   double eqps_max = 0;                           ///< of all integration points

@@ -34,6 +34,10 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, con
   for (const char* name : {"eqps_max", "checkerboard", "collapsed", "nodes", "opened_faces", "fragments"})
     c.push_back({name, "1"});
   if (ph.rigid) c.push_back({"rigidization_energy", "J"}), c.push_back({"rigid_fragments", "1"});
+  if (ph.rigid && ph.rigid->left()) {
+    c.push_back({"left_fragments", "1"}), c.push_back({"left_mass", "kg"}), c.push_back({"left_energy", "J"});
+    for (const char* name : {"left_momentum x", "left_momentum y", "left_momentum z"}) c.push_back({name, "kg m/s"});
+  }
   if (any_heats(ph.elements)) c.push_back({"heat", "J"}), c.push_back({"temperature_max", "K"});
   if (ph.relaxation) c.push_back({"static_imbalance", "1"}), c.push_back({"relaxation_rate", "1/s"});
   for (ProbeCase& probe : probes)
@@ -135,6 +139,9 @@ void Output::write_row(Model& m) {
   row.push_back(cracks ? double(cracks->fragments(m).count()) : 1);
   if (const auto& rigid = m.physics.rigid)
     row.push_back(energy_.rigidization), row.push_back(double(rigid->bodies().size()));
+  if (const auto* left = m.physics.rigid ? m.physics.rigid->left() : nullptr)
+    row.insert(row.end(),
+               {double(left->count), left->mass, energy_.left, left->momentum.x, left->momentum.y, left->momentum.z});
   if (any_heats(m.physics.elements)) row.push_back(energy_.heat), row.push_back(energy_.temperature_max);
   if (const auto& relaxation = m.physics.relaxation)
     row.push_back(static_imbalance(m.physics)), row.push_back(relaxation->rate());
@@ -216,6 +223,7 @@ void Output::write_fragment_table(Model& m) {
   if (m.physics.rigid) fields.is_rigid = m.physics.rigid->is_rigid_node();
   const Fragments& fragments = m.physics.rigid ? m.physics.rigid->fragments(m) : m.physics.cracks->fragments(m);
   auto table = fragments.table(m.mesh, m.topology, fields);
+  if (m.physics.rigid) m.physics.rigid->add_left(m, table);
   if (!writes(m)) return;
   write_fragments(case_.run.output.directory + "/fragments", m.state.t, table);
   if (const Pieces* pieces = m.physics.cracks ? m.physics.cracks->pieces() : nullptr)
@@ -279,6 +287,11 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   if (const auto& rigid = m.physics.rigid) {
     sum.energies.emplace_back("rigidization", energy_.rigidization);
     sum.counts.emplace_back("rigid_fragments", double(rigid->bodies().size()));
+    if (const auto* left = rigid->left()) {
+      sum.counts.emplace_back("left_fragments", double(left->count));
+      sum.energies.emplace_back("left", energy_.left);
+      sum.masses.emplace_back("left", left->mass);
+    }
     sum.counts.emplace_back("rigid_elements", double(rigid->elements()));
     sum.counts.emplace_back("skipped_rigid_blocks", double(m.physics.resting.rigid_skips));
   }

@@ -56,8 +56,10 @@ void Rigid::start(Model& m) {
 
 void Rigid::kick(State& s, double h) {
   parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
-    bodies_[size_t(i)].kick(h);
-    bodies_[size_t(i)].move_nodes(s.v);
+    RigidBody& body = bodies_[size_t(i)];
+    if (body.is_stopped()) return;
+    body.kick(h);
+    body.move_nodes(s.v);
   });
 }
 
@@ -69,6 +71,7 @@ void Rigid::meet_walls(std::vector<ConditionKind>& conditions, State& s, double 
   std::vector<Touch> touches;
   std::vector<RigidWall*> touched;
   for (RigidBody& body : bodies_) {
+    if (body.is_stopped()) continue;
     touches.clear(), touched.clear();
     for (RigidWall* wall : walls) {
       const Vec3& n = wall->normal;
@@ -96,6 +99,7 @@ void Rigid::meet_walls(std::vector<ConditionKind>& conditions, State& s, double 
 void Rigid::drift(State& s, double dt) {
   parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
     RigidBody& body = bodies_[size_t(i)];
+    if (body.is_stopped()) return;
     body.drift(dt);
     body.place_nodes(s.x);
     body.move_nodes(s.v);
@@ -119,6 +123,7 @@ void Rigid::take_forces(State& s) {
 double Rigid::accurate_step() const {
   double step = 1e300;
   for (const RigidBody& body : bodies_) {
+    if (body.is_stopped()) continue;
     constexpr double slow = 1;  // m/s: what rests may begin to move
     step = std::min({step, 0.1 * body.radius() / (slow + norm(body.velocity())), 0.05 / (norm(body.spin()) + 1e-6)});
   }

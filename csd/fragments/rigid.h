@@ -19,6 +19,17 @@ struct State;
 struct Physics;
 struct Elements;
 
+/// [solid.rigid.box]
+struct BoxInput {
+  Vec3 lower{}, upper{};
+  template <class K>
+  void describe(K& k) {
+    k.required("lower", lower, dim::length, "corner of the box");
+    k.required("upper", upper, dim::length, "opposite corner");
+    k.expect(lower.x < upper.x && lower.y < upper.y && lower.z < upper.z, "upper", "more than lower in x, y and z");
+  }
+};
+
 /// [solid.rigid]
 struct RigidInput {
   int elements = 0, every = 10;
@@ -26,6 +37,7 @@ struct RigidInput {
   std::string motion = "six_dof", place;
   std::vector<std::string> bodies;
   std::vector<double> switch_times;
+  std::optional<BoxInput> box;
   template <class K>
   void describe(K& k) {
     k.optional("elements", elements,
@@ -42,6 +54,9 @@ struct RigidInput {
     k.optional("bodies", bodies, "names of bodies that are rigid from the start");
     k.optional("switch_times", switch_times, dim::time,
                "when these become deformable, rigid again and so on, at the step that reaches the time");
+    k.table("box", box,
+            "a fragment that has left this box altogether is retired: it becomes rigid, is recorded as it flew, stands "
+            "still and costs nothing; absent: none");
     k.expect(elements >= 0, "elements", "a number >= 0");
     k.expect(age >= 0, "age", "a time >= 0");
     k.expect(stress >= 0, "stress", "a stress >= 0");
@@ -79,6 +94,15 @@ class Rigid {
   const std::vector<char>& is_rigid_node() const { return is_rigid_; }
   bool is_rigid(NodeId n) const { return size_t(n) < is_rigid_.size() && is_rigid_[size_t(n)]; }
   int64_t elements() const { return elements_; }  ///< that are rigid now
+  /// What left the box, in all; null if there is none.
+  struct Left {
+    int64_t count = 0;
+    double mass = 0;  ///< kg
+    Vec3 momentum{};  ///< kg m/s
+  };
+  const Left* left() const { return input_.box ? &left_ : nullptr; }
+  /// Rows of those that left get the motion that they left with.
+  void add_left(Model& m, std::vector<Fragment>& table);
   /// Up to date with all cracks.
   const Fragments& fragments(Model& m);
 
@@ -87,11 +111,19 @@ class Rigid {
     int32_t label;
     std::vector<ElemId> elems;
   };
+  struct Record {  // of a fragment that left
+    ElemId elem;   // one of its
+    double t;
+    Vec3 velocity, angular_momentum, spin;
+    double kinetic_energy;
+  };
   struct Kept {  // history of a rigid element in a block that has others
     SlotId slot;
     std::vector<double> values;
   };
   std::vector<Piece> candidates(Model& m);
+  std::vector<Piece> beyond_box(Model& m);
+  void retire(Model& m);
   void keep_calm(Model& m, std::vector<Piece>& pieces);
   void freeze(Model& m, const std::vector<Piece>& pieces);
   void release(Model& m);
@@ -109,6 +141,8 @@ class Rigid {
   std::vector<std::vector<ElemId>> elems_;  // [body]
   std::vector<char> is_rigid_;              // [node]
   std::vector<Kept> kept_;
+  std::vector<Record> records_;
+  Left left_;
   int64_t elements_ = 0, opened_ = -1;  // faces at the last look
   bool is_waiting_ = false;             // for age or stress
 };

@@ -65,6 +65,11 @@ Vec3 RigidBody::response(const Vec3& at, const Vec3& from, const Vec3& impulse) 
   return impulse / mass_ + cross(turning, at);
 }
 
+void RigidBody::stop() {
+  is_stopped_ = true;
+  v_ = L_ = omega_ = F_ = T_ = {};
+}
+
 void RigidBody::push(const Vec3& arm, const Vec3& impulse) {
   v_ += impulse / mass_;
   if (motion_ == Motion::six_dof) L_ += cross(arm, impulse), renew_spin();
@@ -72,6 +77,10 @@ void RigidBody::push(const Vec3& arm, const Vec3& impulse) {
 
 void RigidBody::take_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f) {
   F_ = T_ = {};
+  if (is_stopped_) {
+    for (const NodeId n : nodes_) f[n] = {};
+    return;
+  }
   for (size_t i = 0; i < nodes_.size(); ++i) F_ += f[nodes_[i]], T_ += cross(arm(i), f[nodes_[i]]);
   if (motion_ == Motion::translation) T_ = {};
   const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));

@@ -45,6 +45,9 @@ class RigidBody {
   /// Change of velocity at `at` by an impulse at `from` (arms in space) per impulse.
   Vec3 response(const Vec3& at, const Vec3& from, const Vec3& impulse) const;
 
+  /// It stays where it is from now on, whatever pushes it.
+  void stop();
+  bool is_stopped() const { return is_stopped_; }
   /// Impulse [N s] at an arm in space.
   void push(const Vec3& arm, const Vec3& impulse);
   /// From the nodes' forces [N], which become what the body's acceleration makes of their masses: same sum, same
@@ -63,6 +66,7 @@ class RigidBody {
   std::vector<NodeId> nodes_;
   std::vector<Vec3> arm_;  // m, in the body's frame
   Motion motion_;
+  bool is_stopped_ = false;
   double mass_ = 0, radius_ = 0;
   Mat3 inverse_inertia_{};  // of the nodes' masses about the centre, body's frame; zero for translation
   Attitude q_;

@@ -156,7 +156,7 @@ void Rigid::release(Model& m) {
   std::vector<std::vector<NodeId>> freed;
   std::vector<Kinetic> before;
   for (size_t b = 0; b < bodies_.size(); ++b) {
-    if (!is_switched_[size_t(m.mesh.body[elems_[b].front()])]) {
+    if (!is_switched_[size_t(m.mesh.body[elems_[b].front()])] || bodies_[b].is_stopped()) {
       if (kept != b) bodies_[kept] = std::move(bodies_[b]), elems_[kept] = std::move(elems_[b]);
       ++kept;
       continue;
@@ -195,9 +195,11 @@ void Rigid::renew(Model& m) {
   }
   std::vector<Piece> pieces = candidates(m);
   keep_calm(m, pieces);
-  if (pieces.empty()) return;
-  freeze(m, pieces);
-  renew_marks(m);
+  if (!pieces.empty()) {
+    freeze(m, pieces);
+    renew_marks(m);
+  }
+  if (input_.box && m.state.step % input_.every == 0) retire(m);
 }
 
 }  // namespace bw::csd

@@ -134,7 +134,7 @@ TEST(Fragments, FileHasOneRowEach) {
   const h5::File file = h5::File::open(path + ".h5");
   const h5::Group group = file.root().group("fragments");
   EXPECT_EQ(group.read<int64_t>("id"), (std::vector<int64_t>{0, 1}));
-  EXPECT_EQ(group.read<double>("length"), (std::vector<double>{1, 1}));
+  EXPECT_EQ(group.read<double>("surface"), (std::vector<double>{6, 6}));
   EXPECT_EQ(group.read_text_attribute("mass unit"), "kg");
   EXPECT_EQ(group.read_attribute<double>("t"), std::vector<double>{2e-6});
   for (const char* ending : {".csv", ".h5"}) std::filesystem::remove(path + ending);

@@ -395,6 +395,41 @@ TEST(Rigid, AMovingWallTakesItAlong) {
   EXPECT_NEAR(row.contact, row.kinetic, 1e-10 * row.kinetic);
 }
 
+TEST(Rigid, LeavingTheBoxIsRecordedAndCostsNothing) {
+  for (const bool becomes_rigid : {false, true}) {  // a deformable body too is retired
+    Mesh mesh = merge({box({0, 0, 0}, {1e-3, 1e-3, 1e-3}, {2, 2, 2}), box({0, 0, 2e-3}, {1e-3, 1e-3, 3e-3}, {2, 2, 2})},
+                      {"a", "b"});
+    for (int e = 8; e < 16; ++e) mesh.body[ElemId(e)] = 0;
+    Model m = make_model(std::move(mesh), copper_elastic(), [](const Vec3& X) {
+      return X.z > 1.5e-3 ? Vec3{0, 0, 200} + cross({0, 0, 1e4}, X - Vec3{5e-4, 5e-4, 0}) : Vec3{0, 0, -1};
+    });
+    RigidInput input;
+    input.every = 1, input.box = BoxInput{{-0.1, -0.1, -0.1}, {0.1, 0.1, 5e-3}};
+    if (becomes_rigid) input.bodies = {"b"};
+    for (int e = 8; e < 16; ++e) m.mesh.body[ElemId(e)] = becomes_rigid;  // two names
+    m.physics.rigid.emplace(input, std::vector<std::string>{"a", "b"}, m.mesh);
+    m.physics.rigid->start(m);
+    const Vec3 p = momentum(m.state);
+    const double before = kinetic_energy(m.state);
+    for (int n = 0; n < 400; ++n) step(m, 5e-8);
+    const auto* left = m.physics.rigid->left();
+    ASSERT_EQ(left->count, 1);
+    EXPECT_NEAR(left->mass, 8930e-9, 1e-18);
+    EXPECT_LT(norm(momentum(m.state) + left->momentum - p), 1e-13 * norm(p));
+    EXPECT_LT(std::fabs(energy_row(m.physics, m.state).residual), 1e-6 * before);
+    EXPECT_GT(m.physics.resting.rigid_skips, 0);
+    std::vector<double> eqps(16, 0.0);
+    auto table = m.physics.rigid->fragments(m).table(m.mesh, m.topology, {m.state.x, m.state.v, m.state.m, eqps});
+    EXPECT_EQ(table[1].kinetic_energy, 0);
+    m.physics.rigid->add_left(m, table);
+    EXPECT_EQ(table[0].left, -1);
+    EXPECT_NEAR(table[1].left, 3e-3 / 200, 1e-7);  // its lower end at the box's upper side
+    EXPECT_NEAR(table[1].velocity.z, 200, 1e-9);
+    EXPECT_NEAR(table[1].spin.z, 1e4, becomes_rigid ? 1e-6 : 100);
+    EXPECT_NEAR(table[1].lower.z, 5e-3, 2e-5);
+  }
+}
+
 TEST(Walls, AMovingWallPushesADeformableBody) {
   RigidWall wall;
   wall.normal = {0, 0, 1}, wall.velocity = {0, 0, 20};
