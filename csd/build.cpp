@@ -41,6 +41,26 @@ void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
       s.v[n] = region.velocity + (region.motion ? region.motion->velocity(s.x[n]) : Vec3{});
 }
 
+/// [body] InputError if the criterion needs what a body that flows doesn't tell.
+std::vector<FailureData> failure_data(const SolidCase& cs) {
+  std::vector<FailureData> data;
+  for (const BodyCase& body : cs.bodies) {
+    data.push_back(body.material.failure);
+    const bool flows = std::holds_alternative<J2Case>(body.material.choice);
+    std::visit(
+        [&](const auto& criterion) {
+          if constexpr (requires { criterion.is_known(data.back()); })
+            if (flows && !criterion.is_known(data.back()))
+              throw InputError(
+                  fmt::format("{}: the material of body \"{}\" doesn't tell what \"{}\" needs (damage, "
+                              "spall_stress)",
+                              cs.fracture->place, body.name, criterion.name));
+        },
+        cs.fracture->criterion.model);
+  }
+  return data;
+}
+
 Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, State& s) {
   Elements elements;
   elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
@@ -64,7 +84,7 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   for (auto& condition : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, condition);
   if (cs.relaxation) ph.relaxation.emplace(*cs.relaxation, s.x.size());
   if (cs.mass_scaling) ph.mass_scaling.emplace(*cs.mass_scaling, s);
-  if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t);
+  if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t, failure_data(cs));
   if (cs.rigid) {
     std::vector<std::string> names;
     for (const BodyCase& body : cs.bodies) names.push_back(body.name);

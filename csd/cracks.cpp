@@ -10,52 +10,36 @@
 
 namespace bw::csd {
 
-Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t)
-    : criterion_(input.criterion.model), fracture_(input, mesh), fragments_(mesh, t), fail_(size_t(mesh.elem_count())) {
+Cracks::Cracks(const FractureInput& input, const Mesh& mesh, double t, const std::vector<FailureData>& materials)
+    : failure_(input, mesh, materials), fracture_(input, mesh), fragments_(mesh, t) {
   if (input.pieces) pieces_.emplace(*input.pieces, mesh);
 }
 
 /// Returns whether any element is broken; then all ranks know all values.
-bool Cracks::update_fail(const Model& m) {
+bool Cracks::update_failure(const Model& m) {
   const Elements& el = m.physics.elements;
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
-  std::visit(
-      [&]<class C>(const C& criterion) {
-        parallel_for(int64_t(fail_.size()), [&](int64_t e) {
-          const SlotId slot = el.blocks.slot[ElemId(e)];
-          if (!el.blocks.is_own(slot)) return;
-          if (m.state.rigid.size() > 0 && m.state.rigid[slot] > 0) {
-            fail_[size_t(e)] = 0;  // rigid bodies don't break
-            return;
-          }
-          if constexpr (C::uses_stress) {
-            const ElementResult r = evaluate(el, m.state, slot, sigma_m);
-            fail_[size_t(e)] = criterion.fail(r.eqps, r.sigma);
-          } else {
-            fail_[size_t(e)] = criterion.fail(mean_eqps(el, m.state, slot), {});
-          }
-        });
-      },
-      criterion_);
-  const double worst = parallel_max(int64_t(fail_.size()), 0.0,
-                                    [&](int64_t e) { return el.blocks.is_own(ElemId(e)) ? fail_[size_t(e)] : 0; });
+  failure_.update(el, m.state, m.physics.resting, sigma_m);
+  std::vector<double>& fail = failure_.values();
+  const double worst = parallel_max(int64_t(fail.size()), 0.0,
+                                    [&](int64_t e) { return el.blocks.is_own(ElemId(e)) ? fail[size_t(e)] : 0; });
   if ((el.ranks ? el.ranks->comm().max(worst) : worst) < 1) return false;
-  if (el.ranks) el.ranks->complete(fail_);
+  if (el.ranks) el.ranks->complete(fail);
   return true;
 }
 
 /// [element] Those whose stress may be asked for in this step: broken, or next to one that is.
 std::vector<char> Cracks::near_broken(const Model& m) const {
-  std::vector<char> is_asked(fail_.size(), 0);
+  std::vector<char> is_asked(fail().size(), 0);
   for (int32_t e = 0; e < m.mesh.elem_count(); ++e)
-    if (fail_[size_t(e)] >= 1)
+    if (fail()[size_t(e)] >= 1)
       for (NodeId n : m.mesh.hex[ElemId(e)])
         for (ElemId near : m.topology.elements(n)) is_asked[size_t(near)] = 1;
   return is_asked;
 }
 
 bool Cracks::advance(Model& m) {
-  if (!update_fail(m)) return false;
+  if (!update_failure(m)) return false;
   const auto* sigma_m = m.physics.filter ? m.physics.filter->mean_stress() : nullptr;
   const Elements& el = m.physics.elements;
   const auto own = [&](ElemId e) { return evaluate(el, m.state, el.blocks.slot[e], sigma_m).sigma; };
@@ -72,7 +56,7 @@ bool Cracks::advance(Model& m) {
     make_pieces(m);
     holds = [&](ElemId e) { return pieces_->holds(e); };
   }
-  fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail_, splits_, changed_, holds);
+  fracture_.advance(m.mesh, m.topology, {m.state.x.data(), m.state.x.size()}, sigma, fail(), splits_, changed_, holds);
   if (splits_.empty()) return false;
   take_over(m, splits_, changed_);
   return true;
@@ -80,10 +64,10 @@ bool Cracks::advance(Model& m) {
 
 void Cracks::make_pieces(Model& m) {
   const std::vector<ElemId> broken =
-      fracture_.broken(m.mesh, m.topology, fail_, [&](ElemId e) { return !pieces_->is_free(e); });
+      fracture_.broken(m.mesh, m.topology, fail(), [&](ElemId e) { return !pieces_->is_free(e); });
   std::vector<ElemId> taken;
   opened_by_pieces_ += pieces_->advance(
-      m.mesh, m.topology, m.state.t, broken, fail_,
+      m.mesh, m.topology, m.state.t, broken, fail(),
       [&](std::span<const ElemId> elems) { return ring_samples(m, elems); }, splits_, changed_, taken);
   if (taken.empty()) return;
   fracture_.retire(taken);
@@ -117,7 +101,7 @@ std::vector<RingSample> Cracks::ring_samples(const Model& m, std::span<const Ele
   };
   std::vector<RingSample> samples(elems.size());
   if (el.ranks) {
-    std::vector<char> is_asked(fail_.size(), 0);
+    std::vector<char> is_asked(fail().size(), 0);
     for (const ElemId e : elems) is_asked[size_t(e)] = 1;
     const auto all = el.ranks->complete_some<RingSample>(is_asked, sample);
     for (size_t i = 0; i < elems.size(); ++i) samples[i] = all[size_t(elems[i])];
@@ -129,7 +113,6 @@ std::vector<RingSample> Cracks::ring_samples(const Model& m, std::span<const Ele
 
 void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
   auto& [mesh, topology, s, ph] = m;
-  const double filter_energy = ph.filter ? ph.filter->energy(ph.elements, s) : 0;
   s.append_copies(splits);
   if (ph.elements.ranks) ph.elements.ranks->append_copies(splits, s);
   if (ph.loads) ph.loads->append_copies(splits);
@@ -147,12 +130,8 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
   }
   for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);
   if (ph.relaxation) ph.relaxation->select(s.x.size());
-  ph.time_step.renew();
-  if (ph.filter) {
-    ph.filter->renew(ph.elements, s);
-    ph.filter->smooth(ph.elements, s);
-    ph.energy.cracks += filter_energy - ph.filter->energy(ph.elements, s);
-  }
+  ph.time_step.renew(mesh, topology, ph.elements, s, touched);
+  if (ph.filter) ph.energy.cracks += ph.filter->open(mesh, topology, ph.elements, s, touched);
   relabelled_ = false;
 }
 

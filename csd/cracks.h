@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "csd/fracture/failure.h"
 #include "csd/fracture/fracture.h"
 #include "csd/fragments/fragments.h"
 
@@ -16,12 +17,15 @@ struct Model;
 
 class Cracks {
  public:
-  Cracks(const FractureInput& input, const Mesh& mesh, double t);
+  /// materials [body]: what is known of their failure.
+  Cracks(const FractureInput& input, const Mesh& mesh, double t, const std::vector<FailureData>& materials = {});
 
   /// Opens what breaks at the model's time. Returns true if the topology changed.
   bool advance(Model& model);
   /// Failure value of each element at the last step, before smoothing; of several ranks' only the own ones are sure.
-  const std::vector<double>& fail() const { return fail_; }
+  const std::vector<double>& fail() const { return failure_.values(); }
+  /// Elements whose stress the criterion has looked at so far on this rank.
+  int64_t examined() const { return failure_.examined(); }
   /// Up to date with all cracks; those that broke off since the last call are born now.
   const Fragments& fragments(const Model& model);
   int64_t opened_faces() const { return fracture_.opened() + opened_by_pieces_; }
@@ -29,19 +33,18 @@ class Cracks {
   const Pieces* pieces() const { return pieces_ ? &*pieces_ : nullptr; }
 
  private:
-  bool update_fail(const Model& model);
+  bool update_failure(const Model& model);
   std::vector<char> near_broken(const Model& model) const;
   void make_pieces(Model& model);
   std::vector<RingSample> ring_samples(const Model& model, std::span<const ElemId> elems) const;
   void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
 
-  Criteria criterion_;
+  Failure failure_;
   Fracture fracture_;
   std::optional<Pieces> pieces_;
   int64_t opened_by_pieces_ = 0;
   bool warned_ = false;
   Fragments fragments_;
-  std::vector<double> fail_;  // [element]
   std::vector<NodeSplit> splits_;
   std::vector<ElemId> changed_;
   bool relabelled_ = true;

@@ -2,6 +2,7 @@
 #include "csd/element/filter.h"
 
 #include <cmath>
+#include <map>
 
 #include "common/parallel/loop.h"
 #include "csd/element/lanes.h"
@@ -69,6 +70,68 @@ void PressureFilter::renew(const Elements& el, const State& s) {
   sum_.resize(s.x.size());
   nodal_sums(el, s, s.V0, sum_);
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
+}
+
+double PressureFilter::open(const Mesh& mesh, const Topology& topology, const Elements& el, const State& s,
+                            std::span<const NodeId> touched) {
+  if (self_adjoint_ && case_.gate == "none" && sigma_.size() > 0) return open_locally(mesh, topology, el, s, touched);
+  const double before = energy(el, s);
+  renew(el, s);
+  smooth(el, s);
+  return before - energy(el, s);
+}
+
+/// Nodal means change at the touched nodes alone, A_b J in the elements around them.
+double PressureFilter::open_locally(const Mesh& mesh, const Topology& topology, const Elements& el, const State& s,
+                                    std::span<const NodeId> touched) {
+  const size_t nodes_before = share_.size();
+  std::vector<char> is_near(size_t(mesh.elem_count()), 0);
+  for (const NodeId n : touched)
+    for (const ElemId e : topology.elements(n)) is_near[size_t(e)] = 1;
+  struct Known {  // of an element, from its owner
+    double V, J, theta;
+  };
+  const auto own = [&](ElemId e) {
+    const SlotId slot = el.blocks.slot[e];
+    return Known{s.V0[slot], J_[slot], theta_[slot]};
+  };
+  std::vector<Known> all;
+  if (el.ranks) all = el.ranks->complete_some<Known>(is_near, own);
+  const auto known = [&](ElemId e) { return el.ranks ? all[size_t(e)] : own(e); };
+  struct Sums {
+    double V = 0, VJ = 0;
+  };
+  std::map<int32_t, Sums> old_sums;  // of the node that each was split from
+  std::vector<Sums> sums(touched.size());
+  const auto root = [&](NodeId n) {
+    while (size_t(n) >= nodes_before) n = mesh.parent[n];
+    return n;
+  };
+  for (size_t i = 0; i < touched.size(); ++i) {
+    for (const ElemId e : topology.elements(touched[i])) {
+      const Known k = known(e);
+      sums[i].V += k.V, sums[i].VJ += k.V * k.J;
+    }
+    Sums& old = old_sums[root(touched[i])];
+    old.V += sums[i].V, old.VJ += sums[i].VJ;
+  }
+  share_.resize(s.x.size()), sum_.resize(s.x.size());
+  std::map<int32_t, double> change;  // of A_b J, by element
+  for (size_t i = 0; i < touched.size(); ++i) {
+    share_[touched[i]] = 0.125 / sums[i].V;
+    const Sums& old = old_sums[root(touched[i])];
+    const double jump = sums[i].VJ / sums[i].V - old.VJ / old.V;
+    for (const ElemId e : topology.elements(touched[i])) change[e] += 0.125 * strength_ * jump;
+  }
+  double released = 0;
+  for (const auto& [e, jump] : change) {
+    const SlotId slot = el.blocks.slot[ElemId(e)];
+    const Volumetric& U = volumetric_of(el, slot);
+    const Known k = known(ElemId(e));
+    released += k.V * (U.energy(k.theta) - U.energy(k.theta + jump));
+    if (el.blocks.is_own(slot)) theta_[slot] += jump;
+  }
+  return released;
 }
 
 void PressureFilter::mean(const Elements& el, const State& s, const Field<double, SlotId>& a,

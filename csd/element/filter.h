@@ -9,6 +9,7 @@
 // The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one it would be a
 // diffusion.
 #pragma once
+#include <span>
 #include <string>
 
 #include "common/math/units.h"
@@ -53,10 +54,15 @@ class PressureFilter {
   /// J: energy that the elements store beyond sum V U(J) (self_adjoint), or that smoothing took out since the start
   /// (plain).
   double energy(const Elements& elements, const State& s) const;
-  /// After cracks.
-  void renew(const Elements& elements, const State& s);
+  /// After cracks: `touched` (ascending) are the nodes that were split and the new ones; s has its new length. Returns
+  /// the energy that this set free [J]. The mean stress stays that of the last smooth(), but energy() is up to date.
+  double open(const Mesh& mesh, const Topology& topology, const Elements& elements, const State& s,
+              std::span<const NodeId> touched);
 
  private:
+  void renew(const Elements& elements, const State& s);
+  double open_locally(const Mesh& mesh, const Topology& topology, const Elements& elements, const State& s,
+                      std::span<const NodeId> touched);
   void renew_gate(const Elements& elements, const State& s);
   void smooth_gated(const Elements& elements, const State& s);
   void mean(const Elements& elements, const State& s, const Field<double, SlotId>& a, Field<double, SlotId>& out);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/parallel/loop.h"
 #include "csd/element/q1p0.h"
@@ -140,6 +141,29 @@ double flow_stress(const Elements& el, const State& s, SlotId slot, double rate)
       el.materials[size_t(body)]);
 }
 
+double mean_stress(const Elements& el, const State& s, SlotId slot) {
+  return std::visit([&](const auto& m) { return m.volumetric.mean_stress(s.volume[slot] / s.V0[slot]); },
+                    el.materials[size_t(el.body_of(slot))]);
+}
+
+double mises_most(const Elements& el, const State& s, SlotId slot) {
+  const int body = el.body_of(slot);
+  return std::visit(
+      [&]<class M>(const M& material) {
+        double most = std::numeric_limits<double>::infinity();
+        if constexpr (M::plastic)
+          if constexpr (requires { material.flow.stress(0.0); }) {
+            most = 0;  // Kirchhoff, at the points
+            for (int i = 0; i < 8; ++i)
+              most = std::max(most,
+                              material.flow.stress(history_of<M>(el, s, body, slot)[(i * M::components + 6) * lanes]));
+            most *= (1 + 1e-6) * s.V0[slot] / s.volume[slot];
+          }
+        return most;
+      },
+      el.materials[size_t(body)]);
+}
+
 double density(const Elements& el, SlotId slot) {
   return std::visit([](const auto& material) { return material.density; }, el.materials[size_t(el.body_of(slot))]);
 }
@@ -152,6 +176,21 @@ double mean_eqps(const Elements& el, const State& s, SlotId slot) {
         if constexpr (M::plastic)
           for (int i = 0; i < 8; ++i) sum += history_of<M>(el, s, body, slot)[(i * M::components + 6) * lanes];
         return 0.125 * sum;
+      },
+      el.materials[size_t(body)]);
+}
+
+void mean_eqps(const Elements& el, const State& s, int block, int body, double* eqps) {
+  std::visit(
+      [&]<class M>(const M&) {
+        std::fill_n(eqps, lanes, 0.0);
+        if constexpr (M::plastic) {
+          const double* history =
+              s.history[size_t(body)].data() + size_t(el.blocks.row_of(body, block)) * 8 * M::components * lanes;
+          for (int i = 0; i < 8; ++i)
+            for (int l = 0; l < lanes; ++l) eqps[l] += history[(i * M::components + 6) * lanes + l];
+          for (int l = 0; l < lanes; ++l) eqps[l] *= 0.125;
+        }
       },
       el.materials[size_t(body)]);
 }

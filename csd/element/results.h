@@ -44,7 +44,15 @@ double flow_stress(const Elements& elements, const State& s, SlotId slot, double
 /// kg/m^3 of reference volume.
 double density(const Elements& elements, SlotId slot);
 
+/// U'(v/V) [Pa] at State::volume, tension positive.
+double mean_stress(const Elements& elements, const State& s, SlotId slot);
+/// Mises' stress of the element's mean Cauchy stress is not larger [Pa]: the flow stress of its points; infinite where
+/// it has no such bound (rate dependent or elastic).
+double mises_most(const Elements& elements, const State& s, SlotId slot);
+
 /// Mean eqps of an element's points (cheap: reads the history only).
 double mean_eqps(const Elements& elements, const State& s, SlotId slot);
+/// The same for a block: [lane].
+void mean_eqps(const Elements& elements, const State& s, int block, int body, double* eqps);
 
 }  // namespace bw::csd

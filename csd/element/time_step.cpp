@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/element/time_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/parallel/loop.h"
@@ -57,6 +58,17 @@ template <class M>
   }
 }
 
+void renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<double>& masses,
+                      Field<double, SlotId>& distortion) {
+  std::visit(
+      [&]<class M>(const M& material) {
+        const size_t in_body = size_t(el.blocks.row_of(body, block));
+        const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
+        block_distortion(el, material, history, block, masses, s, distortion);
+      },
+      el.materials[size_t(body)]);
+}
+
 /// Central differences with a damping matrix <= beta K are stable for dt <= 2/omega (sqrt(1 + xi^2) - xi), xi = beta
 /// omega/2: the omega^2 of an undamped element with the same limit.
 [[gnu::noinline]] Pack damped_omega2(Pack omega2, Pack beta) {
@@ -100,13 +112,31 @@ void TimeStep::refresh(const Elements& el, const State& s, Which which) {
       const BlockState now = state_of(s, distortion_, block);
       if (!now.collapsed && (which == Which::collapsed || now.omega2 < stiff_part * omega2_)) return;
     }
-    std::visit(
-        [&]<class M>(const M& material) {
-          const size_t in_body = size_t(el.blocks.row_of(body, block));
-          const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
-          block_distortion(el, material, history, block, mass_, s, distortion_);
-        },
-        el.materials[size_t(body)]);
+    renew_distortion(el, s, block, body, mass_, distortion_);
+  });
+}
+
+void TimeStep::renew(const Mesh& mesh, const Topology& topology, const Elements& el, const State& s,
+                     std::span<const NodeId> nodes) {
+  if (stale_) return;
+  std::vector<int> blocks;
+  for (const NodeId n : nodes)
+    for (const ElemId e : topology.elements(n)) {
+      const SlotId slot = el.blocks.slot[e];
+      if (!el.blocks.is_own(slot)) continue;
+      const int block = slot / lanes, lane = slot % lanes, used = el.blocks.used[size_t(block)];
+      blocks.push_back(block);
+      const auto own = corner_masses(mesh, el, e);
+      for (int a = 0; a < 8; ++a)
+        if (mesh.hex[e][size_t(a)] == n)
+          for (int l = lane; l < (lane == used - 1 ? lanes : lane + 1); ++l)  // padding copies the last element
+            mass_[size_t(block * 8 + a) * lanes + size_t(l)] = own[size_t(a)];
+    }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
+    const int block = blocks[size_t(i)];
+    renew_distortion(el, s, block, el.body_of(SlotId(block * lanes)), mass_, distortion_);
   });
 }
 

@@ -2,6 +2,7 @@
 // The stable time step of the whole model, and who limits it.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "csd/element/elements.h"
 
@@ -27,6 +28,10 @@ class TimeStep {
 
   /// The topology or the masses have changed.
   void renew() { stale_ = true; }
+  /// These nodes were split by cracks, and have their new masses: the elements around get their own part of them there,
+  /// as at first, and bounds of their own are evaluated. The rest stays.
+  void renew(const Mesh& mesh, const Topology& topology, const Elements& elements, const State& s,
+             std::span<const NodeId> nodes);
   static constexpr int refresh_steps = 24;
   static constexpr int settling = 8, whole_refresh = 4;  ///< refreshes: of all at first; then of all once in
   static constexpr double stiff_part = 0.25;             ///< of the largest omega^2: others are passed over

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "common/math/tensor.h"
 #include "common/math/units.h"
+#include "csd/fracture/sample.h"
 
 namespace bw::csd {
 
@@ -9,13 +9,15 @@ namespace bw::csd {
 struct EqpsLimit {
   double eqps_max = 0.3;
   static constexpr auto name = "eqps";
-  static constexpr bool uses_stress = false;
+  static constexpr int memory = 0;
+  static constexpr bool reads_pressure = false;
   template <class K>
   void describe(K& k) {
     k.required("limit", eqps_max, dim::none, "equivalent plastic strain at failure");
     k.expect(eqps_max > 0, "limit", "a positive strain");
   }
-  double fail(double eqps, const Sym3&) const { return eqps / eqps_max; }
+  bool wants_stress(const Sample&, const double*) const { return false; }
+  double fail(const Sample& s, double*) const { return s.eqps / eqps_max; }
 };
 
 }  // namespace bw::csd

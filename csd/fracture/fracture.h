@@ -5,12 +5,14 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/data/field.h"
 #include "common/math/tensor.h"
 #include "csd/fracture/list.h"
 #include "csd/fracture/pieces.h"
+#include "csd/fracture/scatter.h"
 #include "csd/mesh/topology.h"
 
 namespace bw::csd {
@@ -25,7 +27,9 @@ struct FractureInput {
     }
   } criterion;
   std::optional<PiecesInput> pieces;
-  bool is_smoothed = true, is_weighted = true;
+  std::optional<Scatter> scatter;
+  bool is_smoothed = true, is_weighted = true, skip_safe = true;
+  std::string place;
   int faces_per_element = 6;
   template <class K>
   void describe(K& k) {
@@ -33,12 +37,17 @@ struct FractureInput {
     k.table("pieces", pieces,
             "break-up of rings about an axis into pieces of a size that statistics give, eq (17); absent: node "
             "disconnection alone, eq (16)");
+    k.table("scatter", scatter, "random strength of each element, after Weibull; absent: all are alike");
+    k.optional("skip_safe", skip_safe,
+               "elements that can't be near failure are passed over: not reached yet, or too little stressed for what "
+               "the criterion asks (faster; the same results)");
     k.optional("smoothing", is_smoothed, "select by the mean over an element's nodes of the mean over their elements");
     k.optional("weighted", is_weighted, "that nodal mean weights elements by volume; false: plain mean");
     k.optional(
         "faces_per_element", faces_per_element,
         "faces that a broken element may open in all, one in a step; 6: no limit, which in the end parts all broken "
         "elements; fewer leave larger pieces");
+    if (!k.is_manual()) place = k.where("criterion");
     k.expect(faces_per_element >= 1 && faces_per_element <= 6, "faces_per_element", "1 to 6");
   }
 };
