@@ -241,6 +241,11 @@ double Output::rate() const {
 
 void Output::tick(const Model& m) {
   element_steps_ += m.mesh.elem_count();
+  const auto now = std::chrono::steady_clock::now();
+  if (const double seconds = std::chrono::duration<double>(now - window_.start).count(); seconds > 0.25) {
+    window_.best = std::max(window_.best, (element_steps_ - window_.element_steps) / seconds);
+    window_.element_steps = element_steps_, window_.start = now;
+  }
   watch_.tick(m);
   progress_.tick(m.state.step, m.state.t, [&] {
     const double scale =
@@ -266,6 +271,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.ranks = ranks ? ranks->comm().size() : 1;
   sum.threads = thread_count(), sum.steps = m.state.step, sum.t = m.state.t;
   sum.rates = {{"elements_per_second", loop_rate}};
+  if (window_.best > 0) sum.rates.emplace_back("best_elements_per_second", window_.best);
   sum.energies = {{"kinetic", energy_.kinetic},           {"elastic", energy_.elastic},
                   {"plastic", energy_.plastic},           {"filter", energy_.filter},
                   {"collapse", energy_.collapse},         {"viscosity", energy_.viscosity},
@@ -308,8 +314,8 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     sum.values.emplace_back("exchange_share",
                             ranks->comm().sum(timers().seconds("exchange") / timers().wall()) / sum.ranks);
   if (writes(m)) sum.write(case_.run.output.directory + "/solid_summary.json", timers());
-  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s, dt limited by {}, energy residual {:.2e} J", status,
-      m.state.step, m.state.t, 1e-6 * loop_rate, limiter(m), energy_.residual);
+  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s (best {:.2f}), dt limited by {}, energy residual {:.2e} J", status,
+      m.state.step, m.state.t, 1e-6 * loop_rate, 1e-6 * std::max(window_.best, loop_rate), limiter(m), energy_.residual);
 }
 
 }  // namespace bw::csd

@@ -54,6 +54,10 @@ class Output {
   double t_complete_ = -1, t_row_ = -1, t_fields_ = -1;
   double element_steps_ = 0;
   std::chrono::steady_clock::time_point start_;
+  struct {
+    double element_steps = 0, best = 0;  // best: 1/s
+    std::chrono::steady_clock::time_point start;
+  } window_;  // of a quarter of a second: what the machine gives when it is left alone
 };
 
 }  // namespace bw::csd

@@ -18,9 +18,10 @@ struct State {
   double dt_stable = 0;  ///< s, bound at t
   int64_t step = 0;
 
-  Field<Vec3, NodeId> x, v;  ///< m, m/s, at t
-  Field<Vec3, NodeId> f;     ///< N, all forces at t, after the conditions took theirs
-  Field<double, NodeId> m;   ///< kg, lumped
+  Field<Vec3, NodeId> x, v;         ///< m, m/s, at t
+  Field<Vec3, NodeId> f;            ///< N, all forces at t, after the conditions took theirs
+  Field<double, NodeId> m;          ///< kg, lumped
+  Field<PaddedPoint, NodeId> sums;  ///< N, work space of internal_force: zero between its calls
 
   Field<double, SlotId> V0;              ///< m^3, reference volume
   Field<double, SlotId> volume;          ///< m^3, current

@@ -104,6 +104,34 @@ inline void load_points(const double* base, const int32_t* at, Pack& x, Pack& y,
   z.v = as_pack(part[2][0], part[2][last]);
 }
 
+/// A point with room for a fourth number, so that it is added to in one go.
+struct alignas(32) PaddedPoint {
+  double x = 0, y = 0, z = 0, unused = 0;
+};
+/// Adds x, y, z to points[at[l]] for the first `count` lanes, one after the other.
+inline void add_points(PaddedPoint* points, const int32_t* at, int count, Pack x, Pack y, Pack z) {
+  using namespace detail;
+  const auto half = [](Pack p, int h) {
+    Quad q;
+    for (int i = 0; i < 4; ++i) q[i] = p.v[4 * h + i];
+    return q;
+  };
+  const auto add = [&](int l, Quad value) {
+    Quad& to = *reinterpret_cast<Quad*>(&points[at[l]]);
+    to = to + value;
+  };
+  for (int h = 0; h < Pack::size / 4; ++h) {
+    const Quad X = half(x, h), Y = half(y, h), Z = half(z, h), none{};
+    const Quad xy02 = __builtin_shufflevector(X, Y, 0, 4, 2, 6), xy13 = __builtin_shufflevector(X, Y, 1, 5, 3, 7);
+    const Quad z02 = __builtin_shufflevector(Z, none, 0, 4, 2, 6), z13 = __builtin_shufflevector(Z, none, 1, 5, 3, 7);
+    const Quad rows[4] = {
+        __builtin_shufflevector(xy02, z02, 0, 1, 4, 5), __builtin_shufflevector(xy13, z13, 0, 1, 4, 5),
+        __builtin_shufflevector(xy02, z02, 2, 3, 6, 7), __builtin_shufflevector(xy13, z13, 2, 3, 6, 7)};
+    for (int l = 0; l < 4; ++l)
+      if (4 * h + l < count) add(4 * h + l, rows[l]);
+  }
+}
+
 // The same words for double, so that a kernel template reads the same for both.
 inline bool any(bool m) { return m; }
 inline bool all(bool m) { return m; }

@@ -59,9 +59,9 @@ template <class M, class Mean>
     if (rests) r.f = {};  // round-off
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
-      scatter_border(r.f, nodes + l, places + l, count, s.f.data(), el.blocks.border.vectors);
+      scatter_border(r.f, nodes + l, places + l, count, s.sums.data(), el.blocks.border.vectors);
     else
-      scatter_add(r.f, nodes + l, count, s.f.data());
+      scatter_add(r.f, nodes + l, count, s.sums.data());
     const Pack J_bar = r.volume / V0;
     const Pack omega2 =
         centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
@@ -150,6 +150,10 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
   if (el.ranks && Mean::viscous) el.ranks->complete_blocks(work);
   double sum = 0;
   for (double w : work) sum += w;
+  s.for_nodes([&](NodeId n) {
+    PaddedPoint& f = s.sums[n];
+    s.f[n] = {f.x, f.y, f.z}, f = {};
+  });
   el.finish_sum(s.f);
   return sum;
 }
@@ -157,7 +161,7 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
 }  // namespace
 
 double internal_force(const Elements& el, const MeanStress& how, State& s, const Reference* reference) {
-  s.for_nodes([&](NodeId n) { s.f[n] = {}; });
+  s.sums.resize(s.f.size());
   if (reference && !reference->resting.any()) reference = nullptr;
   if (how.viscosity.on() && s.viscous_stress.size() == 0)
     s.viscous_stress.resize(s.V0.size()), s.viscous_time.resize(s.V0.size());

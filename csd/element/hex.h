@@ -49,17 +49,28 @@ Modes<T> modes_of(const Corners<T>& corners) {
   return m;
 }
 
-/// A quantity per point that depends on two of the three signs: [direction][first sign + 2 * second sign]. The
-/// column of direction xi depends on (eta, zeta), of eta on (xi, zeta), of zeta on (xi, eta).
+/// A vector per point and direction that depends on two of the three signs: [direction][first sign + 2 * second sign].
+/// The column of direction xi depends on (eta, zeta), of eta on (xi, zeta), of zeta on (xi, eta). Not set at first.
 template <class T>
 struct Columns {
-  Vec<T> col[3][4];
+  T x[3][4], y[3][4], z[3][4];
   static constexpr int index(int direction, int g) {
     const int x = g & 1, e = (g >> 1) & 1, z = g >> 2;
     return direction == 0 ? e + 2 * z : direction == 1 ? x + 2 * z : x + 2 * e;
   }
-  Vec<T>& at(int direction, int g) { return col[direction][index(direction, g)]; }
-  const Vec<T>& at(int direction, int g) const { return col[direction][index(direction, g)]; }
+  Vec<T> at(int direction, int g) const {
+    const int i = index(direction, g);
+    return {x[direction][i], y[direction][i], z[direction][i]};
+  }
+  void add(int direction, int g, const Vec<T>& a) {
+    const int i = index(direction, g);
+    x[direction][i] += a.x, y[direction][i] += a.y, z[direction][i] += a.z;
+  }
+  void clear() {
+    for (auto* component : {&x, &y, &z})
+      for (auto& row : *component)
+        for (T& value : row) value = T(0);
+  }
 };
 
 /// dx/dxi_k at the points.
@@ -67,16 +78,16 @@ template <class T>
 Columns<T> columns_of(const Modes<T>& m) {
   const auto& a = m.a;
   Columns<T> r;
-  const auto component = [&](T Vec<T>::*c) {
-    const auto direction = [&](Vec<T>(&col)[4], T base, T first, T second, T both) {
+  const auto component = [&](T Vec<T>::*c, T(&to)[3][4]) {
+    const auto direction = [&](T(&col)[4], T base, T first, T second, T both) {
       const T p = base + first, l = base - first, q = second + both, s = second - both;
-      col[0].*c = l - s, col[1].*c = p - q, col[2].*c = l + s, col[3].*c = p + q;
+      col[0] = l - s, col[1] = p - q, col[2] = l + s, col[3] = p + q;
     };
-    direction(r.col[0], a[0].*c, a[3].*c, a[4].*c, a[6].*c);
-    direction(r.col[1], a[1].*c, a[3].*c, a[5].*c, a[6].*c);
-    direction(r.col[2], a[2].*c, a[4].*c, a[5].*c, a[6].*c);
+    direction(to[0], a[0].*c, a[3].*c, a[4].*c, a[6].*c);
+    direction(to[1], a[1].*c, a[3].*c, a[5].*c, a[6].*c);
+    direction(to[2], a[2].*c, a[4].*c, a[5].*c, a[6].*c);
   };
-  component(&Vec<T>::x), component(&Vec<T>::y), component(&Vec<T>::z);
+  component(&Vec<T>::x, r.x), component(&Vec<T>::y, r.y), component(&Vec<T>::z, r.z);
   return r;
 }
 
@@ -84,15 +95,15 @@ Columns<T> columns_of(const Modes<T>& m) {
 template <class T>
 Corners<T> forces_from_columns(const Columns<T>& q) {
   Corners<T> f;
-  const auto component = [&](T Vec<T>::*d) {
+  const auto component = [&](T Vec<T>::*d, const T(&from)[3][4]) {
     struct Sums {
       T base, first, second, both;
     };
-    const auto sums = [&](const Vec<T>(&c)[4]) -> Sums {
-      const T u = c[0].*d + c[1].*d, v = c[2].*d + c[3].*d, s = c[1].*d - c[0].*d, t = c[3].*d - c[2].*d;
+    const auto sums = [](const T(&c)[4]) -> Sums {
+      const T u = c[0] + c[1], v = c[2] + c[3], s = c[1] - c[0], t = c[3] - c[2];
       return {u + v, s + t, v - u, t - s};
     };
-    const Sums x = sums(q.col[0]), e = sums(q.col[1]), z = sums(q.col[2]);
+    const Sums x = sums(from[0]), e = sums(from[1]), z = sums(from[2]);
     const T w1(-0.125), w2(-0.125 * gauss), w3(-0.125 / 3.0);
     const T F0 = w1 * x.base, F1 = w1 * e.base, F2 = w1 * z.base, F3 = w2 * (x.first + e.first),
             F4 = w2 * (x.second + z.first), F5 = w2 * (e.second + z.second), F6 = w3 * (x.both + e.both + z.both);
@@ -103,7 +114,7 @@ Corners<T> forces_from_columns(const Columns<T>& q) {
     f.a[0].*d = -(bm + lm), f.a[1].*d = lm - bm, f.a[2].*d = lp - bp, f.a[3].*d = -(bp + lp);
     f.a[4].*d = tm - hm, f.a[5].*d = tm + hm, f.a[6].*d = tp + hp, f.a[7].*d = tp - hp;
   };
-  component(&Vec<T>::x), component(&Vec<T>::y), component(&Vec<T>::z);
+  component(&Vec<T>::x, q.x), component(&Vec<T>::y, q.y), component(&Vec<T>::z, q.z);
   return f;
 }
 

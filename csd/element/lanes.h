@@ -25,17 +25,13 @@ inline Corners<double> corners(const Mesh& mesh, ElemId e) {
 }
 
 /// Adds to nodes of the first `count` lanes.
-inline void scatter_add(const Corners<Pack>& f, const int32_t* nodes, int count, Vec3* out) {
-  for (int a = 0; a < 8; ++a)
-    for (int l = 0; l < count; ++l) {
-      Vec3& to = out[nodes[a * lanes + l]];
-      to.x += f.a[a].x[l], to.y += f.a[a].y[l], to.z += f.a[a].z[l];
-    }
+inline void scatter_add(const Corners<Pack>& f, const int32_t* nodes, int count, PaddedPoint* out) {
+  for (int a = 0; a < 8; ++a) add_points(out, nodes + a * lanes, count, f.a[a].x, f.a[a].y, f.a[a].z);
 }
 
 /// Likewise, but corners with a place (>= 0, laid out as nodes) go there.
-inline void scatter_border(const Corners<Pack>& f, const int32_t* nodes, const int32_t* places, int count, Vec3* out,
-                           Vec3* border) {
+inline void scatter_border(const Corners<Pack>& f, const int32_t* nodes, const int32_t* places, int count,
+                           PaddedPoint* out, Vec3* border) {
   for (int a = 0; a < 8; ++a)
     for (int l = 0; l < count; ++l) {
       const int i = a * lanes + l;
@@ -43,7 +39,7 @@ inline void scatter_border(const Corners<Pack>& f, const int32_t* nodes, const i
       if (places[i] >= 0)
         border[places[i]] = value;
       else
-        out[nodes[i]] += value;
+        out[nodes[i]].x += value.x, out[nodes[i]].y += value.y, out[nodes[i]].z += value.z;
     }
 }
 

@@ -52,7 +52,7 @@ template <class T>
     const CollapseEnergy<T> e(det_g * inverse_V0 / J_bar, kappa);
     energy += e.value / inverse_V0;
     const T sigma = e.slope / J_bar;  // dE/d(det_g) = slope inverse_V0 / J_bar / inverse_V0
-    q.at(0, i) += sigma * c[0], q.at(1, i) += sigma * c[1], q.at(2, i) += sigma * c[2];
+    q.add(0, i, sigma * c[0]), q.add(1, i, sigma * c[1]), q.add(2, i, sigma * c[2]);
     back += sigma * det_g;  // dE/dJ_bar = -slope r / J_bar per point
   }
   sigma_m -= back / volume;
@@ -63,44 +63,70 @@ template <class T>
 template <class T>
 [[gnu::noinline]] void add_mean_stress(const Columns<T>& g, T sigma_m, Columns<T>& q) {
   for (int i = 0; i < 8; ++i) {
-    q.at(0, i) += sigma_m * cross(g.at(1, i), g.at(2, i));
-    q.at(1, i) += sigma_m * cross(g.at(2, i), g.at(0, i));
-    q.at(2, i) += sigma_m * cross(g.at(0, i), g.at(1, i));
+    q.add(0, i, sigma_m * cross(g.at(1, i), g.at(2, i)));
+    q.add(1, i, sigma_m * cross(g.at(2, i), g.at(0, i)));
+    q.add(2, i, sigma_m * cross(g.at(0, i), g.at(1, i)));
   }
 }
 
-/// Points of an element in the middle of a step.
+/// Points of an element in the middle of a step. Not set at first.
 template <class T>
 struct Points {
-  T det_g[8];            ///< current volume per parent volume
-  Trial<T> trial[8];     ///< of those that flow
-  unsigned flowing = 0;  ///< a bit per point with a lane that yields
+  T h[8][3][3];               ///< [point][k][x y z], h_k = A^kl g_l
+  T det_g[8];                 ///< current volume per parent volume
+  T J_squared[8];             ///< det b^e
+  T root[8];                  ///< J^(-1/3)
+  T third_trace[8], dev2[8];  ///< tr b^e / 3, |dev b^e|^2
+  T k[8];                     ///< Pa, dev tau = k dev b^e
 };
 
-/// The points that yield flow: new history, and q loses what their stresses lose. In two rounds, so that the long
-/// dependent chains of one point's return overlap with those of the next. Out of line: an elastic element has none.
+/// First pass over a point: b^e and its invariants.
+template <class T>
+void convect(const Sym<T>& A, const Vec<T>& g1, const Vec<T>& g2, const Vec<T>& g3, int i, Points<T>& p) {
+  const T det_g = p.det_g[i] = triple(g1, g2, g3);
+  p.J_squared[i] = squared_ratio(A, det_g);
+  auto& h = p.h[i];
+  const auto component = [&](T Vec<T>::*c, int d) {
+    h[0][d] = A.xx * g1.*c + A.xy * g2.*c + A.xz * g3.*c;
+    h[1][d] = A.xy * g1.*c + A.yy * g2.*c + A.yz * g3.*c;
+    h[2][d] = A.xz * g1.*c + A.yz * g2.*c + A.zz * g3.*c;
+  };
+  const auto product = [&](int d, T Vec<T>::*c) { return h[0][d] * g1.*c + h[1][d] * g2.*c + h[2][d] * g3.*c; };
+  Sym<T> b;  // b^e
+  component(&Vec<T>::x, 0);
+  b.xx = product(0, &Vec<T>::x), b.xy = product(0, &Vec<T>::y), b.xz = product(0, &Vec<T>::z);
+  component(&Vec<T>::y, 1);
+  b.yy = product(1, &Vec<T>::y), b.yz = product(1, &Vec<T>::z);
+  component(&Vec<T>::z, 2);
+  b.zz = product(2, &Vec<T>::z);
+  const T t = p.third_trace[i] = trace(b) * T(1.0 / 3.0);
+  const Sym<T> dev{b.xx - t, b.yy - t, b.zz - t, b.xy, b.xz, b.yz};
+  p.dev2[i] = contract(dev, dev);
+}
+
+/// The points that yield flow: new history, and their k. In two rounds, so that the long dependent chains of one
+/// point's return overlap with those of the next. Out of line: an elastic element has none.
 template <class T, class M>
-[[gnu::noinline, gnu::flatten]] static void flow(const M& material, const Columns<T>& g, const Points<T>& p,
-                                                 double* history, double per_dt, Columns<T>& q) {
+[[gnu::noinline, gnu::flatten]] static void flow(const M& material, const Columns<T>& g, unsigned flowing,
+                                                 double* history, double per_dt, Points<T>& p) {
   constexpr int stride = M::components * lanes;
-  Response<T> response[8];
-  for (unsigned left = p.flowing; left; left &= left - 1) {
+  T keep[8], add[8];
+  for (unsigned left = flowing; left; left &= left - 1) {
     const int i = std::countr_zero(left);
-    response[i] = material.respond(p.trial[i], history + i * stride, per_dt);
+    const T iso = p.root[i] * p.root[i], t = p.third_trace[i];
+    // det dev b^e from det b^e and the other invariants
+    const T dev_det = p.J_squared[i] - t * (t * t - T(0.5) * p.dev2[i]);
+    const Trial<T> trial{p.J_squared[i], iso, t, p.dev2[i], dev_det};
+    const Response<T> r = material.respond(trial, history + i * stride, per_dt);
+    p.k[i] = r.k, keep[i] = r.keep, add[i] = r.add;
   }
-  for (unsigned left = p.flowing; left; left &= left - 1) {
+  for (unsigned left = flowing; left; left &= left - 1) {
     const int i = std::countr_zero(left);
     double* at_point = history + i * stride;
-    const Sym<T> A = load_sym<T>(at_point);
-    const Trial<T>& t = p.trial[i];
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
-    const Vec<T> c1 = cross(g2, g3), c2 = cross(g3, g1), c3 = cross(g1, g2);
-    const T k = (response[i].k - T(material.mu) * t.iso) * t.inverse_J;  // 0 in lanes that don't yield
-    const T on_h = k * p.det_g[i], on_c = -k * t.third_trace;
-    q.at(0, i) += on_h * (A.xx * g1 + A.xy * g2 + A.xz * g3) + on_c * c1;
-    q.at(1, i) += on_h * (A.xy * g1 + A.yy * g2 + A.yz * g3) + on_c * c2;
-    q.at(2, i) += on_h * (A.xz * g1 + A.yz * g2 + A.zz * g3) + on_c * c3;
-    store_sym(at_point, response[i].keep * A + response[i].add * metric(c1, c2, c3, T(1) / (p.det_g[i] * p.det_g[i])));
+    const T inverse_det2 = T(1) / (p.det_g[i] * p.det_g[i]);
+    store_sym(at_point, keep[i] * load_sym<T>(at_point) +
+                            add[i] * metric(cross(g2, g3), cross(g3, g1), cross(g1, g2), inverse_det2));
   }
 }
 
@@ -108,72 +134,55 @@ template <class T, class M>
 /// volume, mean_stress(J_bar) -> sigma_m [Pa]: U' of the material, or a filtered value, and what viscosity adds.
 /// history: [8][M::components][lanes], at this element's lane. per_dt [1/s]: one over the time since the last call, for
 /// flow that depends on the rate; 0: no time passes.
-/// First as if no point flowed, then those that do are mended. The roots of J of all points come before anything else,
-/// so that their long chains overlap.
+/// In passes over the points, each with short dependent chains, so that a processor overlaps one point with the next:
+/// strains, roots of J, flow of the points that yield, forces.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
                                const MeanStress& mean_stress, double per_dt = 0) {
   const Modes<T> modes = modes_of(x);
   const Columns<T> g = columns_of(modes);
-  const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
-  const T least_squared = T(collapse_ratio * collapse_ratio) * J_bar * J_bar;
   constexpr int stride = M::components * lanes;
   Points<T> p;
-  T J_squared[8], root[8], collapsed(0);
-#pragma GCC unroll 1
-  for (int i = 0; i < 8; ++i) {
-    p.det_g[i] = triple(g.at(0, i), g.at(1, i), g.at(2, i));
-    J_squared[i] = squared_ratio(load_sym<T>(history + i * stride), p.det_g[i]);
-    collapsed = select((J_squared[i] < least_squared) | (p.det_g[i] <= T(0)), T(1), collapsed);
-  }
-  inverse_sixth_roots(J_squared, root);
-  Columns<T> q{};
+  T volume(0), least_det(1e300), least_squared(1e300);
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
     const double* at_point = history + i * stride;
     for (int c = 0; c < M::components; ++c)
       __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
-    const Sym<T> A = load_sym<T>(at_point);
-    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
-    Vec<T> h1, h2, h3;
-    const auto convect = [&](T Vec<T>::*c) {  // h_k = A^kl g_l
-      h1.*c = A.xx * g1.*c + A.xy * g2.*c + A.xz * g3.*c;
-      h2.*c = A.xy * g1.*c + A.yy * g2.*c + A.yz * g3.*c;
-      h3.*c = A.xz * g1.*c + A.yz * g2.*c + A.zz * g3.*c;
-    };
-    const auto product = [&](T Vec<T>::*c, T Vec<T>::*d) { return h1.*c * g1.*d + h2.*c * g2.*d + h3.*c * g3.*d; };
-    Sym<T> b;  // b^e
-    convect(&Vec<T>::x);
-    b.xx = product(&Vec<T>::x, &Vec<T>::x), b.xy = product(&Vec<T>::x, &Vec<T>::y),
-    b.xz = product(&Vec<T>::x, &Vec<T>::z);
-    convect(&Vec<T>::y);
-    b.yy = product(&Vec<T>::y, &Vec<T>::y), b.yz = product(&Vec<T>::y, &Vec<T>::z);
-    convect(&Vec<T>::z);
-    b.zz = product(&Vec<T>::z, &Vec<T>::z);
-    const T iso = root[i] * root[i], inverse_J = iso * root[i];
-    const T third_trace = trace(b) * T(1.0 / 3.0);
-    const Sym<T> dev{b.xx - third_trace, b.yy - third_trace, b.zz - third_trace, b.xy, b.xz, b.yz};
-    // dev sigma = k dev b^e / J; times c_k: k/J (det_g h_k - t c_k), as b^e c_k = det_g h_k
-    const T k = T(material.mu) * iso * inverse_J;  // eq (6)
-    const T on_h = k * p.det_g[i], on_c = sigma_m - k * third_trace;
-    q.at(0, i) += on_h * h1 + on_c * cross(g2, g3);
-    q.at(1, i) += on_h * h2 + on_c * cross(g3, g1);
-    q.at(2, i) += on_h * h3 + on_c * cross(g1, g2);
-    const T dev2 = contract(dev, dev);
-    if constexpr (M::plastic)
-      if (any(material.yields(iso, dev2, at_point))) {
-        p.flowing |= 1u << i;
-        p.trial[i] = {J_squared[i], iso, inverse_J, third_trace, dev2, det(dev)};
-      }
+    convect(load_sym<T>(at_point), g.at(0, i), g.at(1, i), g.at(2, i), i, p);
+    volume += p.det_g[i];  // exact: 2x2x2 points integrate it
+    least_det = min(least_det, p.det_g[i]), least_squared = min(least_squared, p.J_squared[i]);
   }
-  if constexpr (M::plastic)
-    if (p.flowing) flow(material, g, p, history, per_dt, q);
-  if (any(collapsed > T(0))) [[unlikely]] {
+  const T J_bar = volume / V0, sigma_m = mean_stress(J_bar);
+  const auto is_collapsed = (least_squared < T(collapse_ratio * collapse_ratio) * J_bar * J_bar) | (least_det <= T(0));
+  inverse_sixth_roots(p.J_squared, p.root);
+  for (int i = 0; i < 8; ++i) p.k[i] = T(material.mu) * (p.root[i] * p.root[i]);  // eq (6)
+  if constexpr (M::plastic) {
+    unsigned flowing = 0;  // a bit per point with a lane that yields
+    for (int i = 0; i < 8; ++i)
+      flowing |= unsigned(any(material.yields(p.root[i] * p.root[i], p.dev2[i], history + i * stride))) << i;
+    if (flowing) flow(material, g, flowing, history, per_dt, p);
+  }
+  Columns<T> q;
+  q.clear();
+#pragma GCC unroll 1
+  for (int i = 0; i < 8; ++i) {
+    const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    // dev sigma = k dev b^e / J; times c_k: k/J (det_g h_k - t c_k), as b^e c_k = det_g h_k
+    const T k = p.k[i] * (p.root[i] * p.root[i]) * p.root[i];
+    const T on_h = k * p.det_g[i], on_c = sigma_m - k * p.third_trace[i];
+    const auto part = [&](int d, const Vec<T>& c) {
+      const auto& h = p.h[i][d];
+      q.add(d, i, {on_h * h[0] + on_c * c.x, on_h * h[1] + on_c * c.y, on_h * h[2] + on_c * c.z});
+    };
+    part(0, cross(g2, g3)), part(1, cross(g3, g1)), part(2, cross(g1, g2));
+  }
+  if (any(is_collapsed)) [[unlikely]] {
     T correction(0);
     collapse_guard(g, history, M::components, J_bar, volume, T(material.volumetric.kappa), q, correction);
     add_mean_stress(g, correction, q);
   }
-  return {forces_from_columns(q), {modes.a[0], modes.a[1], modes.a[2]}, volume, collapsed};
+  return {forces_from_columns(q), {modes.a[0], modes.a[1], modes.a[2]}, volume, select(is_collapsed, T(1), T(0))};
 }
 
 }  // namespace bw::csd

@@ -66,7 +66,6 @@ template <class T>
 struct Trial {
   T J_squared;  ///< det b^e
   T iso;        ///< J^(-2/3): b_bar = iso b^e
-  T inverse_J;
   T third_trace;  ///< tr b^e / 3
   T dev2;         ///< |dev b^e|^2
   T dev_det;      ///< det dev b^e
@@ -76,8 +75,7 @@ struct Trial {
 template <class T>
 struct Response {
   T k;                 ///< Pa, dev tau = k dev b^e at the end of the step (b^e before it)
-  T keep, add;         ///< history after the step: A <- keep A + add G
-  bool flows = false;  ///< some lane changes its history
+  T keep, add;  ///< history after the step: A <- keep A + add G
 };
 
 /// One point with everything about it; the force kernel does the same in stages.
@@ -98,7 +96,7 @@ struct Point {
     dev_b = {b.xx - trial.third_trace, b.yy - trial.third_trace, b.zz - trial.third_trace, b.xy, b.xz, b.yz};
     trial.J_squared = squared_ratio(A, det_g);
     const T root = inverse_sixth_root(trial.J_squared);
-    trial.iso = root * root, trial.inverse_J = trial.iso * root;
+    trial.iso = root * root;
     trial.dev2 = contract(dev_b, dev_b);
     trial.dev_det = det(dev_b);
   }

@@ -47,7 +47,7 @@ Response<T> radial_return(const Trial<T>& t, T k_trial, T ratio, Lanes yields) {
   const T x = isochoric_third_trace(e2 * t.dev2, e2 * e * t.dev_det, t.iso * t.third_trace);
   // b_bar = s/mu + x 1, pulled back: A = ratio (A - t G) + x / iso G, as b^e = b_bar / iso; differs from eq (9): exact
   const T add = x * (t.J_squared * (t.iso * t.iso)) - ratio * t.third_trace;  // 1/iso = J^2 iso^2
-  return {select(yields, k_trial * ratio, k_trial), select(yields, ratio, T(1)), select(yields, add, T(0)), true};
+  return {select(yields, k_trial * ratio, k_trial), select(yields, ratio, T(1)), select(yields, add, T(0))};
 }
 
 }  // namespace bw::csd
