@@ -314,8 +314,9 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     sum.values.emplace_back("exchange_share",
                             ranks->comm().sum(timers().seconds("exchange") / timers().wall()) / sum.ranks);
   if (writes(m)) sum.write(case_.run.output.directory + "/solid_summary.json", timers());
-  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s (best {:.2f}), dt limited by {}, energy residual {:.2e} J", status,
-      m.state.step, m.state.t, 1e-6 * loop_rate, 1e-6 * std::max(window_.best, loop_rate), limiter(m), energy_.residual);
+  say("{}: {} steps to t = {:.6g} s, {:.2f} Melem-steps/s (best {:.2f}), dt limited by {}, energy residual {:.2e} J",
+      status, m.state.step, m.state.t, 1e-6 * loop_rate, 1e-6 * std::max(window_.best, loop_rate), limiter(m),
+      energy_.residual);
 }
 
 }  // namespace bw::csd

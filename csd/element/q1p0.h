@@ -143,17 +143,16 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
   const Columns<T> g = columns_of(modes);
   constexpr int stride = M::components * lanes;
   Points<T> p;
-  T volume(0), least_det(1e300), least_squared(1e300);
+  T least_det(1e300), least_squared(1e300);
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
     const double* at_point = history + i * stride;
     for (int c = 0; c < M::components; ++c)
       __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
     convect(load_sym<T>(at_point), g.at(0, i), g.at(1, i), g.at(2, i), i, p);
-    volume += p.det_g[i];  // exact: 2x2x2 points integrate it
     least_det = min(least_det, p.det_g[i]), least_squared = min(least_squared, p.J_squared[i]);
   }
-  const T J_bar = volume / V0, sigma_m = mean_stress(J_bar);
+  const T volume = volume_of(modes), J_bar = volume / V0, sigma_m = mean_stress(J_bar);
   const auto is_collapsed = (least_squared < T(collapse_ratio * collapse_ratio) * J_bar * J_bar) | (least_det <= T(0));
   inverse_sixth_roots(p.J_squared, p.root);
   for (int i = 0; i < 8; ++i) p.k[i] = T(material.mu) * (p.root[i] * p.root[i]);  // eq (6)

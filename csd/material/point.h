@@ -64,8 +64,8 @@ Sym<T> metric(const Vec<T>& c1, const Vec<T>& c2, const Vec<T>& c3, T inverse_de
 /// All that an isotropic material needs: the invariants of b^e (not isochoric), and J.
 template <class T>
 struct Trial {
-  T J_squared;  ///< det b^e
-  T iso;        ///< J^(-2/3): b_bar = iso b^e
+  T J_squared;    ///< det b^e
+  T iso;          ///< J^(-2/3): b_bar = iso b^e
   T third_trace;  ///< tr b^e / 3
   T dev2;         ///< |dev b^e|^2
   T dev_det;      ///< det dev b^e
@@ -74,7 +74,7 @@ struct Trial {
 /// What it answers.
 template <class T>
 struct Response {
-  T k;                 ///< Pa, dev tau = k dev b^e at the end of the step (b^e before it)
+  T k;          ///< Pa, dev tau = k dev b^e at the end of the step (b^e before it)
   T keep, add;  ///< history after the step: A <- keep A + add G
 };
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rows of run/bench, by group."""
 import os
+import statistics
 import subprocess
 import sys
 
@@ -51,6 +52,7 @@ def solid_rows(name, text):
     for threads in THREADS:
         done = run(f"bench_{name}_{threads}", text, threads=threads, only="solid")
         result.append(row(name, rate(done.directory, "solid", "element"), "M element-steps/s", threads))
+        result.append(row(f"{name}_best", rate(done.directory, "solid", "best_element"), "M element-steps/s", threads))
         last = done
     return result, last
 
@@ -69,8 +71,10 @@ ELASTIC_FLOP = 2300
 
 
 def share_of_peak(name, rows):
-    """Elastic operations alone over the machine's fused multiply-adds: a lower bound where there is flow."""
-    return [row(f"{name}_share_of_peak", r["value"] * 1e-3 * ELASTIC_FLOP / MACHINE["fma_peak_1"], "of FMA peak") for r in rows if r["threads"] == 1]
+    """Elastic operations alone over the machine's fused multiply-adds: a lower bound where there is flow. Best over best: the peak is the
+    best of several tries, so the rate is that of the best quarter of a second."""
+    return [row(f"{name}_share_of_peak", r["value"] * 1e-3 * ELASTIC_FLOP / MACHINE["fma_peak_1"], "of FMA peak")
+            for r in rows if r["threads"] == 1 and r["name"].endswith("_best")]
 
 
 def taylor_j2():
@@ -81,24 +85,31 @@ def taylor_j2():
 
 
 def copies(text):
-    """As many copies as cores, each on its own core with one thread, at the same time; and all threads in one run just after."""
+    """As many copies as cores, each on its own core with one thread, at the same time; and all threads in one run just after: three times in turn,
+    the medians."""
     if CORES < 2:
         return []
-    folders, running = [], []
     environment = os.environ | dict(item.split("=", 1) for item in subprocess.run(
         [str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
-    for core in sorted(os.sched_getaffinity(0)):
-        work = WORK / f"bench_copy_{core}"
-        work.mkdir(parents=True, exist_ok=True)
-        (work / "case.toml").write_text(text)
-        folders.append(work / "out")
-        running.append(subprocess.Popen([str(BUILD / "bin" / "csd"), "case.toml", "--threads", "1"], cwd=work, env=environment,
-                                        preexec_fn=lambda core=core: os.sched_setaffinity(0, {core}), stdout=subprocess.DEVNULL))
-    if any(process.wait() for process in running):
-        raise RunFailed("a copy failed")
-    both = sum(rate(folder, "solid", "element") for folder in folders)
-    threads = rate(run("bench_copies_threads", text, threads=CORES, only="solid").directory, "solid", "element")
-    return [row("taylor_j2_copies", both, "M element-steps/s", CORES), row("taylor_j2_threads_over_copies", threads / both, "ratio", CORES)]
+
+    def together():
+        folders, running = [], []
+        for core in sorted(os.sched_getaffinity(0)):
+            work = WORK / f"bench_copy_{core}"
+            work.mkdir(parents=True, exist_ok=True)
+            (work / "case.toml").write_text(text)
+            folders.append(work / "out")
+            running.append(subprocess.Popen([str(BUILD / "bin" / "csd"), "case.toml", "--threads", "1"], cwd=work, env=environment,
+                                            preexec_fn=lambda core=core: os.sched_setaffinity(0, {core}), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        if any([process.wait() for process in running]):
+            raise RunFailed("a copy failed")
+        return sum(rate(folder, "solid", "element") for folder in folders)
+
+    def threaded():
+        return rate(run("bench_copies_threads", text, threads=CORES, only="solid").directory, "solid", "element")
+    pairs = [(together(), threaded()) for _ in range(3)]
+    return [row("taylor_j2_copies", statistics.median(both for both, _ in pairs), "M element-steps/s", CORES),
+            row("taylor_j2_threads_over_copies", statistics.median(threads / both for both, threads in pairs), "ratio", CORES)]
 
 
 def taylor_jc():
@@ -144,7 +155,7 @@ def ranks():
                 + '[[solid.body]]\nname = "block"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["40 mm", "40 mm", "40 mm"], cells = [40, 40, 40]}\n'
                 + 'velocity = [0.0, 0.0, "-100 m/s"]\n' + solid.COPPER
                 + '[[solid.condition]]\nkind = "roller"\nnodes = "z_lower"\nnormal = [0.0, 0.0, 1.0]\n')
-    for name, text in (("taylor", BAR.format(steps=1000, filter="off")), ("taylor_filter", BAR.format(steps=1000, filter="self_adjoint")), ("block_64k", cube_64k)):
+    for name, text in (("taylor", bar(1000)), ("taylor_filter", bar(1000, filter="self_adjoint")), ("block_64k", cube_64k)):
         for n in THREADS:
             done = run(f"bench_ranks_{name}_{n}", text, ranks=str(n), threads=1, only="solid")
             summary = fields.summary(done.directory, "solid")
