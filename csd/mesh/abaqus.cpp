@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "common/app/log.h"
+#include "csd/mesh/include.h"
 #include "csd/mesh/keyword_lines.h"
 
 namespace bw::csd {
@@ -35,8 +36,6 @@ class Reader {
         read_set(element_sets_, "ELSET");
       else if (key == "SURFACE")
         read_surface();
-      else if (key == "INCLUDE")
-        in_.fail("*INCLUDE is not supported: put the file's text here");
       else if (key == "PART" && ++parts_ > 1)
         in_.fail("a second *PART: only files with one part are supported");
       else if (key == "INSTANCE")
@@ -228,7 +227,7 @@ class Reader {
 
 Mesh Abaqus::make() const {
   MeshFile raw;
-  raw.path = file, raw.text = read_mesh_text(file, place);
+  read_with_includes(file, place, IncludeStyle::abaqus, raw);
   Reader(raw).read();
   return mesh_of(std::move(raw), elements, place);
 }

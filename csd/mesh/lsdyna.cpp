@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "common/app/log.h"
+#include "csd/mesh/include.h"
 #include "csd/mesh/keyword_lines.h"
 
 namespace bw::csd {
@@ -54,7 +55,7 @@ class Reader {
     else if (word == "SET_SEGMENT")
       read_segments(has_title);
     else if (word.starts_with("INCLUDE"))
-      in_.fail("*INCLUDE is not supported: put the file's text here");
+      in_.fail(fmt::format("*{} is not supported: only *INCLUDE", word));
   }
 
   /// The non-empty leading fields of the present line.
@@ -211,7 +212,7 @@ class Reader {
 
 Mesh LsDyna::make() const {
   MeshFile raw;
-  raw.path = file, raw.text = read_mesh_text(file, place);
+  read_with_includes(file, place, IncludeStyle::lsdyna, raw);
   Reader(raw).read();
   return mesh_of(std::move(raw), elements, place);
 }

@@ -39,8 +39,12 @@ int element_node_count(int type) {
 
 std::string MeshFile::at(size_t offset) const {
   if (is_binary) return fmt::format("{}: byte {}", path, offset);
-  return fmt::format("{}:{}", path,
-                     1 + std::count(text.begin(), text.begin() + long(std::min(offset, text.size())), '\n'));
+  const auto behind = std::upper_bound(pieces.begin(), pieces.end(), offset,
+                                       [](size_t value, const Piece& piece) { return value < piece.begin; });
+  const Piece piece = behind == pieces.begin() ? Piece{0, path, 1} : behind[-1];
+  const auto lines =
+      std::count(text.begin() + long(piece.begin), text.begin() + long(std::min(offset, text.size())), '\n');
+  return fmt::format("{}:{}", piece.path, piece.first_line + lines);
 }
 
 std::string MeshFile::group(int dimension, int number) const {

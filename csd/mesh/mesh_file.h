@@ -26,6 +26,12 @@ struct MeshFile {
   std::vector<FileElement> elements;
   std::map<std::pair<int, int>, std::string> names;  ///< (dimension, number) of named physical groups
   std::string path, text;
+  struct Piece {
+    size_t begin;  ///< in the text
+    std::string path;
+    int64_t first_line;
+  };
+  std::vector<Piece> pieces;  ///< files that the text is made of, ascending; empty: all of it is `path`
   bool is_binary = false;
   bool repeats_elements = false;  ///< one is written anew for each of its groups
 

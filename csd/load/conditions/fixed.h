@@ -28,12 +28,25 @@ struct Fixed {
   void after_kick(State&, double) {}
 };
 
-/// Nodes that slide on a plane.
-struct Roller {
-  static constexpr auto name = "roller";
-  std::string nodes, place;
+/// What holds nodes on planes of one normal.
+struct OnPlane {
   Vec3 normal{};
   Reaction reaction;
+
+  void before_drift(State& s, double) {
+    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, s.v[n] - dot(normal, s.v[n]) * normal);
+  }
+  void on_force(State& s, double dt) {
+    for (size_t i = 0; i < reaction.nodes.size(); ++i)
+      reaction.take_force(s, i, dot(normal, s.f[reaction.nodes[i]]) * normal, dt);
+  }
+  void after_kick(State&, double) {}
+};
+
+/// Nodes that slide on a plane.
+struct Roller : OnPlane {
+  static constexpr auto name = "roller";
+  std::string nodes, place;
 
   template <class K>
   void describe(K& k) {
@@ -43,14 +56,6 @@ struct Roller {
     if (!k.is_manual()) place = k.where("nodes"), normal = unit(normal);
   }
   void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }
-  void before_drift(State& s, double) {
-    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, s.v[n] - dot(normal, s.v[n]) * normal);
-  }
-  void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i)
-      reaction.take_force(s, i, dot(normal, s.f[reaction.nodes[i]]) * normal, dt);
-  }
-  void after_kick(State&, double) {}
 };
 
 }  // namespace bw::csd

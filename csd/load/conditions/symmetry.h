@@ -7,16 +7,15 @@
 #include <string>
 
 #include "common/app/error.h"
-#include "csd/load/conditions/reaction.h"
+#include "csd/load/conditions/fixed.h"
 
 namespace bw::csd {
 
 /// A plane of symmetry: the nodes that lie on it at the start slide on it. The model stands on one side of it.
-struct Symmetry {
+struct Symmetry : OnPlane {
   static constexpr auto name = "symmetry";
-  Vec3 normal{}, point{};
+  Vec3 point{};
   std::string place;
-  Reaction reaction;
 
   template <class K>
   void describe(K& k) {
@@ -42,14 +41,6 @@ struct Symmetry {
     if (set.empty()) throw InputError(place + ": no node lies on the plane of symmetry");
     reaction.renew(set, size_t(mesh.node_count()));
   }
-  void before_drift(State& s, double) {
-    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, s.v[n] - dot(normal, s.v[n]) * normal);
-  }
-  void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i)
-      reaction.take_force(s, i, dot(normal, s.f[reaction.nodes[i]]) * normal, dt);
-  }
-  void after_kick(State&, double) {}
 };
 
 }  // namespace bw::csd

@@ -175,7 +175,7 @@ TEST(AbaqusFile, WrongOnesAreRefusedWithTheirLine) {
   EXPECT_SAYS(refusal<Abaqus>(swap(inp, " 2, S4", " Bth, S4")), "Bth");
   EXPECT_SAYS(refusal<Abaqus>(swap(inp, "           1.,           0.,           0.", " 1.0x, 0, 0")), ".txt:7:");
   EXPECT_SAYS(refusal<Abaqus>(swap(inp, " 1, 4, 7,\n 10", " 1, 4, 7,\n 777")), "777");
-  EXPECT_SAYS(refusal<Abaqus>(swap(inp, "*Material", "*Include, input=x\n*Material")), "INCLUDE");
+  EXPECT_SAYS(refusal<Abaqus>(swap(inp, "*Material", "*Include, input=x\n*Material")), "x' can't be opened");
   EXPECT_SAYS(refusal<Abaqus>(inp, {"Lft"}), "Left");
   EXPECT_SAYS(refusal<Abaqus>("no mesh\n"), ":1");
   EXPECT_SAYS(refusal<Abaqus>(swap(inp, "2, 2, 3, 6, 5, 8, 9, 12, 11", "2, 1, 2, 5, 4, 7, 8, 11, 10")), "same nodes");
@@ -213,7 +213,7 @@ TEST(LsDynaFile, WrongOnesAreRefusedWithTheirLine) {
   EXPECT_SAYS(refusal<LsDyna>(
                   swap(key, "         1         4         7        10", "         1         4         7       100")),
               "100");
-  EXPECT_SAYS(refusal<LsDyna>(swap(key, "*PART", "*INCLUDE\nmore.k\n*PART")), "INCLUDE");
+  EXPECT_SAYS(refusal<LsDyna>(swap(key, "*PART", "*INCLUDE\nmore.k\n*PART")), "more.k' can't be opened");
   EXPECT_SAYS(refusal<LsDyna>(swap(key, "*KEYWORD", "*NODE LONG=Y")), "format");
   EXPECT_SAYS(refusal<LsDyna>(
                   swap(key, "              2.              1.              0.", "              2.              q.")),
@@ -264,6 +264,78 @@ TEST(Quality, ReportsHistogramAndWorst) {
   const auto lines = quality_report(q);
   ASSERT_GE(lines.size(), 2u);
   EXPECT_NE(lines[1].find("element 0"), std::string::npos) << lines[1];
+}
+
+/// A folder of files for *INCLUDE.
+class Includes : public testing::Test {
+ protected:
+  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("csd_include_" + std::to_string(getpid()));
+  void SetUp() override { std::filesystem::create_directories(folder / "parts"); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  template <class Kind>
+  Mesh mesh(const std::string& name) const {
+    Kind kind;
+    kind.file = folder / name, kind.place = "case.toml:1";
+    return kind.make();
+  }
+  template <class Kind>
+  std::string refusal_of(const std::string& name) const {
+    try {
+      mesh<Kind>(name);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "not refused";
+  }
+};
+bool same_mesh(const Mesh& a, const Mesh& b) {
+  if (a.node_sets != b.node_sets || a.elem_sets != b.elem_sets || a.face_sets != b.face_sets) return false;
+  if (a.X.size() != b.X.size() || a.hex.size() != b.hex.size()) return false;
+  return std::equal(a.X.begin(), a.X.end(), b.X.begin()) && std::equal(a.hex.begin(), a.hex.end(), b.hex.begin());
+}
+
+TEST_F(Includes, AbaqusPartsMakeTheSameMesh) {
+  write("whole.inp", inp);
+  const size_t nodes = inp.find("      1,  "), behind = inp.find("*ELEMENT"), sets = inp.find("*Nset, nset=Foot\n"),
+               rest = inp.find("*Surface");
+  write("main.inp", inp.substr(0, nodes) + "*INCLUDE, INPUT=parts/nodes.inp\n" + inp.substr(behind, sets - behind) +
+                        "*include, input=\"parts/sets.inp\"\n" + inp.substr(rest));
+  write("parts/nodes.inp", inp.substr(nodes, behind - nodes - 1));  // no end of line: data of the keyword before
+  write("parts/sets.inp", "*Include, Input = more.inp\n" +
+                              inp.substr(inp.find("*Nset, nset=\"Foot"), rest - inp.find("*Nset, nset=\"Foot")));
+  write("parts/more.inp", inp.substr(sets, inp.find("*Nset, nset=\"Foot") - sets));
+  EXPECT_TRUE(same_mesh(mesh<Abaqus>("main.inp"), mesh<Abaqus>("whole.inp")));
+}
+
+TEST_F(Includes, LsDynaPartsMakeTheSameMesh) {
+  write("whole.k", key);
+  const size_t nodes = key.find("*NODE"), parts = key.find("*PART"), elements = key.find("*ELEMENT_SOLID"),
+               sets = key.find("*SET_NODE");
+  write("main.k", key.substr(0, nodes) + "*INCLUDE\n$ two of them\nparts/nodes.k\nparts/parts.k\n" +
+                      key.substr(elements, sets - elements) + "*INCLUDE\nparts/sets.k\n*END\nnonsense\n");
+  write("parts/nodes.k", key.substr(nodes, parts - nodes) + "*END\n*NODE\nnot read\n");
+  write("parts/parts.k", key.substr(parts, elements - parts));
+  write("parts/sets.k", key.substr(sets));
+  EXPECT_TRUE(same_mesh(mesh<LsDyna>("main.k"), mesh<LsDyna>("whole.k")));
+}
+
+TEST_F(Includes, ErrorsNameTheFileThatHoldsTheLine) {
+  write("main.inp", "** one\n*NODE\n1, 0, 0, 0\n*INCLUDE, INPUT=parts/bad.inp\n*NODE\n2, nowhere, 0, 0\n");
+  write("parts/bad.inp", "2, 1, 0, 0\n3, x, 0, 0\n");
+  EXPECT_SAYS(refusal_of<Abaqus>("main.inp"), "parts/bad.inp:2: expected a coordinate, found 'x'");
+  write("parts/bad.inp", "3, 1, 0, 0\n");
+  EXPECT_SAYS(refusal_of<Abaqus>("main.inp"), "main.inp:6: expected a coordinate, found 'nowhere'");
+  write("missing.inp", "*NODE\n*INCLUDE, INPUT=none.inp\n");
+  EXPECT_SAYS(refusal_of<Abaqus>("missing.inp"), "missing.inp:2: mesh file '");
+  write("empty.inp", "*INCLUDE\n");
+  EXPECT_SAYS(refusal_of<Abaqus>("empty.inp"), "empty.inp:1: *INCLUDE without INPUT");
+  write("circle.k", "*KEYWORD\n*INCLUDE\nparts/back.k\n");
+  write("parts/back.k", "*INCLUDE\n../circle.k\n");
+  EXPECT_SAYS(refusal_of<LsDyna>("circle.k"), "parts/back.k:2: the file '");
+  EXPECT_SAYS(refusal_of<LsDyna>("circle.k"), "circle.k' includes itself");
+  write("turned.k", "*INCLUDE_TRANSFORM\nparts/back.k\n");
+  EXPECT_SAYS(refusal_of<LsDyna>("turned.k"), "turned.k:1: *INCLUDE_TRANSFORM is not supported");
 }
 
 }  // namespace
