@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thread-parallel loops: the only home of OpenMP pragmas. Every result is the same for any number of threads: loops write
-// disjoint places, sums are made per fixed chunk and added in chunk order.
+// Thread-parallel loops: the only home of OpenMP pragmas. Every result is the same for any number of threads: loops
+// write disjoint places, sums are made per fixed chunk and added in chunk order.
 #pragma once
 #include <omp.h>
 
@@ -46,6 +46,28 @@ T parallel_reduce(int64_t n, T identity, const Value& value, const Combine& comb
     T sum = identity;
     for (int64_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) sum = combine(sum, value(i));
     part[size_t(c)] = sum;
+  }
+  T total = identity;
+  for (const T& p : part) total = combine(total, p);
+  return total;
+}
+/// The same, bit for bit, as if all values had been stored first: none is fused with the sum.
+template <class T, class Value, class Combine>
+T parallel_reduce_stored(int64_t n, T identity, const Value& value, const Combine& combine) {
+  constexpr int64_t chunk = 1024;
+  const int64_t chunks = (n + chunk - 1) / chunk;
+  std::vector<T> part(size_t(chunks), identity);
+#pragma omp parallel if (chunks > 1)
+  {
+    std::vector<T> values(size_t(std::min(n, chunk)), identity);
+#pragma omp for schedule(static)
+    for (int64_t c = 0; c < chunks; ++c) {
+      const int64_t first = c * chunk, count = std::min(n - first, chunk);
+      for (int64_t i = 0; i < count; ++i) values[size_t(i)] = value(first + i);
+      T sum = identity;
+      for (int64_t i = 0; i < count; ++i) sum = combine(sum, values[size_t(i)]);
+      part[size_t(c)] = sum;
+    }
   }
   T total = identity;
   for (const T& p : part) total = combine(total, p);

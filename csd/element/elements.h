@@ -33,11 +33,13 @@ struct Elements {
 template <class T, class Value, class Combine>
 T reduce_elements(const Elements& el, const T& identity, const Value& value, const Combine& combine) {
   const Field<SlotId, ElemId>& slot = el.blocks.slot;
-  std::vector<T> values(slot.size());  // by way of memory on one rank too: nothing is fused with the sum
+  const auto of = [&](int64_t e) { return value(slot[ElemId(e)]); };
+  if (!el.ranks) return parallel_reduce_stored(int64_t(slot.size()), identity, of, combine);
+  std::vector<T> values(slot.size());
   parallel_for(int64_t(slot.size()), [&](int64_t e) {
-    if (el.blocks.is_own(slot[ElemId(e)])) values[size_t(e)] = value(slot[ElemId(e)]);
+    if (el.blocks.is_own(slot[ElemId(e)])) values[size_t(e)] = of(e);
   });
-  if (el.ranks) el.ranks->complete(values);
+  el.ranks->complete(values);
   return parallel_reduce(
       int64_t(values.size()), identity, [&](int64_t e) { return values[size_t(e)]; }, combine);
 }

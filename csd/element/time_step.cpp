@@ -14,7 +14,7 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   if (mass_.empty()) {
     mass_.resize(size_t(el.blocks.slot_count()) * 8);
     for (size_t i = 0; i < mass_.size(); ++i)  // any weights: they are made to sum to the nodes' masses
-      mass_[i] = s.V0[SlotId(int64_t(i / (8 * lanes) * lanes + i % lanes))];
+      mass_[i] = float(s.V0[SlotId(int64_t(i / (8 * lanes) * lanes + i % lanes))]);
     distortion_.resize(s.V0.size(), 1.0);
   }
   sum_.resize(s.m.size());
@@ -23,18 +23,18 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   for_blocks(el.blocks, [&](int block, int) {
     for_corners(lanes, [&](int a, int l) {
       const SlotId slot(block * lanes + l);
-      mass_[at(block, a, l)] *= s.omega2[slot] * distortion_[slot];
+      mass_[at(block, a, l)] *= float(s.omega2[slot] * distortion_[slot]);
     });
   });
   for_coloured_blocks(el.blocks, [&](int block, int) {
     add_to_corners(
-        el.blocks, block, [&](int a, int l) { return mass_[at(block, a, l)]; }, sum_);
+        el.blocks, block, [&](int a, int l) { return double(mass_[at(block, a, l)]); }, sum_);
   });
   el.finish_sum(sum_);
   for_blocks(el.blocks, [&](int block, int) {
     for_corners(lanes, [&](int a, int l) {
       const NodeId n(el.blocks.node[at(block, a, l)]);
-      mass_[at(block, a, l)] = mass_[at(block, a, l)] / sum_[n] * s.m[n];
+      mass_[at(block, a, l)] = float(mass_[at(block, a, l)] / sum_[n] * s.m[n]);
     });
   });
 }
@@ -44,12 +44,13 @@ namespace {
 /// Bound over centroid part, for the elements of a block.
 template <class M>
 [[gnu::flatten]] void block_distortion(const Elements& el, const M& material, const double* history, int block,
-                                       const Aligned<double>& masses, const State& s,
+                                       const Aligned<float>& masses, const State& s,
                                        Field<double, SlotId>& distortion) {
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
     Pack mass[8];
-    for (int a = 0; a < 8; ++a) mass[a] = Pack::load(&masses[size_t(block * 8 + a) * lanes + size_t(l)]);
+    for (int a = 0; a < 8; ++a)
+      for (int i = 0; i < Pack::size; ++i) mass[a].set(i, masses[size_t(block * 8 + a) * lanes + size_t(l + i)]);
     const Pack V0 = Pack::load(&s.V0[slot]), volume = Pack::load(&s.volume[slot]);
     const Pack sigma = material.volumetric.mean_stress(volume / V0);
     const Corners<Pack> x = gather(s.x.data(), el.blocks.nodes_of(block) + l);
@@ -58,7 +59,7 @@ template <class M>
   }
 }
 
-void renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<double>& masses,
+void renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<float>& masses,
                       Field<double, SlotId>& distortion) {
   std::visit(
       [&]<class M>(const M& material) {
@@ -130,7 +131,7 @@ void TimeStep::renew(const Mesh& mesh, const Topology& topology, const Elements&
       for (int a = 0; a < 8; ++a)
         if (mesh.hex[e][size_t(a)] == n)
           for (int l = lane; l < (lane == used - 1 ? lanes : lane + 1); ++l)  // padding copies the last element
-            mass_[size_t(block * 8 + a) * lanes + size_t(l)] = own[size_t(a)];
+            mass_[size_t(block * 8 + a) * lanes + size_t(l)] = float(own[size_t(a)]);
     }
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
