@@ -17,8 +17,7 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
       mass_[i] = float(s.V0[SlotId(int64_t(i / (8 * lanes) * lanes + i % lanes))]);
     distortion_.resize(s.V0.size(), 1.0);
   }
-  sum_.resize(s.m.size());
-  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  Field<double, NodeId> sum(s.m.size());
   const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
   for_blocks(el.blocks, [&](int block, int) {
     for_corners(lanes, [&](int a, int l) {
@@ -28,13 +27,13 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   });
   for_coloured_blocks(el.blocks, [&](int block, int) {
     add_to_corners(
-        el.blocks, block, [&](int a, int l) { return double(mass_[at(block, a, l)]); }, sum_);
+        el.blocks, block, [&](int a, int l) { return double(mass_[at(block, a, l)]); }, sum);
   });
-  el.finish_sum(sum_);
+  el.finish_sum(sum);
   for_blocks(el.blocks, [&](int block, int) {
     for_corners(lanes, [&](int a, int l) {
       const NodeId n(el.blocks.node[at(block, a, l)]);
-      mass_[at(block, a, l)] = float(mass_[at(block, a, l)] / sum_[n] * s.m[n]);
+      mass_[at(block, a, l)] = float(mass_[at(block, a, l)] / sum[n] * s.m[n]);
     });
   });
 }

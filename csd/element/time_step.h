@@ -41,7 +41,6 @@ class TimeStep {
   enum class Which { all, stiff, collapsed };  // all: with new shares of mass
   void refresh(const Elements& elements, const State& s, Which which);
   Aligned<float> mass_;               // [block][8][lanes] kg, M_e
-  Field<double, NodeId> sum_;         // work space
   Field<double, SlotId> distortion_;  // bound / centroid part
   int64_t refreshed_at_ = 0, refreshes_ = 0;
   double omega2_ = 0;  // of the last call
