@@ -17,19 +17,22 @@ void sum_forces(Model& m, double t, double dt) {
   const Reference reference{mesh.X, ph.resting};
   ph.energy.viscosity += internal_force(ph.elements, mean, s, &reference);  // eqs (1)-(13), (15)
   if (ph.rigid) ph.rigid->after_elements(ph.elements, s);
-  if (ph.loads) ph.loads->add(mesh, t, s);                                  // eqs (15), (18)
+  if (ph.loads) ph.loads->add(mesh, t, s);  // eqs (15), (18)
 }
 
-/// Whose turn a condition is: ties hand forces on before the others take theirs, drag acts on what these leave.
+/// Whose turn a condition is: springs pull like loads, ties hand forces on before the others take theirs, drag acts on
+/// what these leave.
+enum Turn { pulls, ties, holds, drags };
 template <class C>
-constexpr int turn(const C&) {
-  return requires { C::is_tie; }
-  ? 0 : requires { C::is_last; }
-  ? 2 : 1;
+constexpr Turn turn(const C&) {
+  if constexpr (requires { C::is_pull; }) return pulls;
+  if constexpr (requires { C::is_tie; }) return ties;
+  if constexpr (requires { C::is_last; }) return drags;
+  return holds;
 }
 template <class Work>
-void for_conditions(Model& m, std::initializer_list<int> turns, const Work& work) {
-  for (const int now : turns)
+void for_conditions(Model& m, std::initializer_list<Turn> turns, const Work& work) {
+  for (const Turn now : turns)
     for (auto& kind : m.physics.conditions)
       std::visit(
           [&](auto& c) {
@@ -38,15 +41,16 @@ void for_conditions(Model& m, std::initializer_list<int> turns, const Work& work
           kind);
 }
 void on_force(Model& m, double dt) {
-  for_conditions(m, {0, 1, 2}, [&](auto& c) { c.on_force(m.state, dt); });
+  for_conditions(m, {pulls, ties, holds, drags}, [&](auto& c) { c.on_force(m.state, dt); });
   if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
   if (m.physics.rigid) m.physics.rigid->take_forces(m.state);
 }
 void before_drift(Model& m, double dt) {
-  for_conditions(m, {1, 2, 0}, [&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); });
+  for_conditions(m, {pulls, holds, drags, ties},
+                 [&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); });
 }
 void after_kick(Model& m, double dt) {
-  for_conditions(m, {1, 2, 0}, [&](auto& c) { c.after_kick(m.state, dt); });
+  for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.after_kick(m.state, dt); });
 }
 /// Half a step's work of the loads, at the step's velocities.
 void book_half_work(Model& m, double dt) {

@@ -4,8 +4,9 @@
 //   before_drift(s, dt)   s.v is the velocity of the coming step
 //   on_force(s, dt)       s.v still is; s.f are the forces at the step's end
 //   after_kick(s, dt)     s.v is the velocity at the step's end
-// and if it is so: is_last (acts on the forces that the others leave), is_tie (moves forces before the others take
-// theirs, and velocities after them), omega2(s) (stiffness of its own, 1/s^2).
+// and if it is so: is_pull (a force like a load's, before the others hold its nodes), is_last (acts on the forces that
+// the others leave), is_tie (moves forces before the others take theirs, and velocities after them), omega2(s)
+// (stiffness of its own, 1/s^2).
 #pragma once
 #include <variant>
 

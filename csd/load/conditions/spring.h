@@ -16,6 +16,7 @@ namespace bw::csd {
 /// unstrained at the start. The dashpot acts implicitly, as in damping.h.
 struct Spring {
   static constexpr auto name = "spring";
+  static constexpr bool is_pull = true;
   std::string nodes, to, place, place_to;
   double stiffness = 0, damping = 0;
   Vec3 direction{};
