@@ -68,7 +68,8 @@ void Cracks::make_pieces(Model& m) {
   std::vector<ElemId> taken;
   opened_by_pieces_ += pieces_->advance(
       m.mesh, m.topology, m.state.t, broken, fail(),
-      [&](std::span<const ElemId> elems) { return ring_samples(m, elems); }, splits_, changed_, taken);
+      [&](std::span<const ElemId> elems) { return ring_samples(m, elems); }, splits_, changed_, taken,
+      [&](ElemId e) { return m.physics.rigid && m.physics.rigid->is_rigid(m.mesh.hex[e][0]); });
   if (taken.empty()) return;
   fracture_.retire(taken);
   const Row& row = pieces_->rows().back();

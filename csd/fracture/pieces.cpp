@@ -59,18 +59,19 @@ Pieces::Pieces(const PiecesInput& input, const Mesh& mesh)
 
 int64_t Pieces::advance(Mesh& mesh, Topology& topology, double t, std::span<const ElemId> broken,
                         std::span<const double> fail, const Sampler& sample, std::vector<NodeSplit>& splits,
-                        std::vector<ElemId>& changed, std::vector<ElemId>& taken) {
+                        std::vector<ElemId>& changed, std::vector<ElemId>& taken, const IsWhole& is_whole) {
   ++step_;
   int64_t opened = 0;
   for (const ElemId e : broken)  // step 1
-    if (is_free(e) && seen_[e] != step_) opened += examine(mesh, topology, t, e, fail, sample, splits, changed, taken);
+    if (is_free(e) && seen_[e] != step_)
+      opened += examine(mesh, topology, t, e, fail, sample, splits, changed, taken, is_whole);
   return opened;
 }
 
 /// Steps 2 to 7 for the rings around an element.
 int64_t Pieces::examine(Mesh& mesh, Topology& topology, double t, ElemId worst, std::span<const double> fail,
                         const Sampler& sample, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed,
-                        std::vector<ElemId>& taken) {
+                        std::vector<ElemId>& taken, const IsWhole& is_whole) {
   const Range gap = gap_around(place_[worst]);
   const double z = z_[size_t(place_[worst])], extent = frame_.extent(corners(mesh.hex[worst], mesh.X));
   const Range near = between(gap, z - extent, z + extent);
@@ -104,16 +105,16 @@ int64_t Pieces::examine(Mesh& mesh, Topology& topology, double t, ElemId worst, 
       mark(ring, let_go_);
       continue;
     }
-    const std::vector<ElemId> row = make_row(mesh, topology, t, worst, gap, start, is_top, state);
+    const std::vector<ElemId> row = make_row(mesh, topology, t, worst, gap, start, is_top, state, is_whole);
     opened += cut_between(mesh, topology, bin_, row, splits, changed);  // step 7
     taken.insert(taken.end(), row.begin(), row.end());
   }
   return opened;
 }
 
-/// Steps 6 and 7: the elements of a new row, in their bins.
+/// Steps 6 and 7: the elements of a new row, in their bins; none where nothing is left to break.
 std::vector<ElemId> Pieces::make_row(const Mesh& mesh, const Topology& topology, double t, ElemId worst, Range gap,
-                                     double start, bool is_top, const RingState& state) {
+                                     double start, bool is_top, const RingState& state, const IsWhole& is_whole) {
   const auto random = [&](uint64_t k) {
     return uniform01(uint64_t(input_.seed), uint64_t(mesh.elem_gid[worst]), 3 * rows_.size() + k);
   };
@@ -126,8 +127,14 @@ std::vector<ElemId> Pieces::make_row(const Mesh& mesh, const Topology& topology,
   Range range = is_top ? between(gap, start, start + length) : between(gap, start - length, start);
   const double left = is_top ? z_[size_t(gap.last) - 1] - (start + length) : (start - length) - z_[size_t(gap.first)];
   if (left < rest) (is_top ? range.last : range.first) = is_top ? gap.last : gap.first;
-  const std::span<const ElemId> elems(order_.data() + range.first, size_t(range.size()));
-  row.lower = z_[size_t(range.first)], row.upper = z_[size_t(range.last) - 1], row.elements = range.size();
+  std::vector<ElemId> elems;
+  std::copy_if(order_.begin() + range.first, order_.begin() + range.last, std::back_inserter(elems),
+               [&](ElemId e) { return !is_whole(e); });
+  if (elems.empty()) {
+    mark(range, let_go_);
+    return {};
+  }
+  row.lower = z_[size_t(range.first)], row.upper = z_[size_t(range.last) - 1], row.elements = int(elems.size());
   row.around = std::max(1, int(std::lround(2 * pi * state.radius / row.width)));
   const BinShape shape = measure(mesh, frame_, volume_, elems);
   row.across = row.width / (shape.angle * state.radius);
@@ -141,7 +148,7 @@ std::vector<ElemId> Pieces::make_row(const Mesh& mesh, const Topology& topology,
   bin_count_ += row.bins;
   edges_.insert({range.first, range.last});
   rows_.push_back(row);
-  return {elems.begin(), elems.end()};
+  return elems;
 }
 
 RingState Pieces::ring_state(Range range, const Sampler& sample) const {

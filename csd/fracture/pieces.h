@@ -86,10 +86,12 @@ class Pieces {
 
   /// Steps 1 to 7 at time t [s]. broken: elements and their failure values (selection), the worst first; fail
   /// [element]. Appends to splits and changed, as cut_between does, and to taken the elements that are in pieces now.
-  /// Returns the number of faces opened.
-  int64_t advance(Mesh& mesh, Topology& topology, double t, std::span<const ElemId> broken,
-                  std::span<const double> fail, const Sampler& sample, std::vector<NodeSplit>& splits,
-                  std::vector<ElemId>& changed, std::vector<ElemId>& taken);
+  /// Elements of fragments that don't break any more stay out of the bins. Returns the number of faces opened.
+  using IsWhole = std::function<bool(ElemId)>;
+  int64_t advance(
+      Mesh& mesh, Topology& topology, double t, std::span<const ElemId> broken, std::span<const double> fail,
+      const Sampler& sample, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed, std::vector<ElemId>& taken,
+      const IsWhole& is_whole = [](ElemId) { return false; });
 
   /// Whether the element is not in a piece but may come into one.
   bool is_free(ElemId e) const { return place_[e] >= 0 && bin_[e] < 0; }
@@ -113,9 +115,9 @@ class Pieces {
   void mark(Range range, Field<int32_t, ElemId>& step);
   int64_t examine(Mesh& mesh, Topology& topology, double t, ElemId worst, std::span<const double> fail,
                   const Sampler& sample, std::vector<NodeSplit>& splits, std::vector<ElemId>& changed,
-                  std::vector<ElemId>& taken);
+                  std::vector<ElemId>& taken, const IsWhole& is_whole);
   std::vector<ElemId> make_row(const Mesh& mesh, const Topology& topology, double t, ElemId worst, Range gap,
-                               double start, bool is_top, const RingState& state);
+                               double start, bool is_top, const RingState& state, const IsWhole& is_whole);
 
   PiecesInput input_;
   AxisFrame frame_;

@@ -59,6 +59,7 @@ struct Scene {
   double radius = 0.1, speed = 600;
   std::vector<NodeSplit> splits;
   std::vector<ElemId> changed, taken;
+  Pieces::IsWhole is_whole = [](ElemId) { return false; };
 
   Scene(Mesh m, const PiecesInput& input) : mesh(std::move(m)), topology(mesh), pieces(input, mesh) {}
   int64_t advance(const std::function<double(double)>& fail_at, double t = 0) {
@@ -76,7 +77,7 @@ struct Scene {
     const auto sample = [&](std::span<const ElemId> elems) {
       return std::vector<RingSample>(elems.size(), RingSample{1, radius, speed, 1e9, 7760});
     };
-    return pieces.advance(mesh, topology, t, broken, fail, sample, splits, changed, taken);
+    return pieces.advance(mesh, topology, t, broken, fail, sample, splits, changed, taken, is_whole);
   }
   int parts() const {
     const auto piece = pieces_by_nodes(mesh);
@@ -125,6 +126,30 @@ TEST(FragmentPieces, EachRowHasAsManyAsItsWidthSays) {
       EXPECT_EQ(int(pairs.size()), bins);
     }
   }
+}
+
+TEST(FragmentPieces, FragmentsThatStayWholeAreNotCut) {
+  const auto cut = [](bool with_whole) {
+    Scene s(tube(160, 20).make(), fixed(0.0211));
+    const auto is_whole = [&s](ElemId e) {
+      for (const NodeId n : s.mesh.hex[e])
+        if (s.mesh.X[n].x < -1e-9) return false;
+      return true;
+    };
+    if (with_whole) s.is_whole = is_whole;
+    for (int step = 0; step < 4; ++step) s.advance([](double) { return 1.1; });
+    int opened = 0, binned = 0;
+    for (int e = 0; e < s.mesh.elem_count(); ++e)
+      for (int side = 0; side < 6; ++side) {
+        const Face f{ElemId(e), side}, other = s.topology.partner(f);
+        if (!other.elem.valid() || !is_whole(f.elem) || !is_whole(other.elem)) continue;
+        opened += !s.topology.is_bonded(f), binned += s.pieces.bins()[f.elem] >= 0;
+      }
+    EXPECT_FALSE(s.taken.empty());
+    return opened + binned;
+  };
+  EXPECT_EQ(cut(true), 0);
+  EXPECT_GT(cut(false), 0);
 }
 
 TEST(FragmentPieces, RowsStartAtRandomAngles) {
