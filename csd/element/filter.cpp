@@ -196,7 +196,7 @@ void PressureFilter::renew_gate(const Elements& el, const State& s) {
       acts = acts && eqps > eqps_[slot];
       eqps_[slot] = eqps;
     }
-    gate_[slot] = acts;
+    gate_[slot] = acts || gate_[slot] != 0;
   });
 }
 

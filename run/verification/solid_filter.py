@@ -81,7 +81,7 @@ def a4():
         yield at_most(f"{name}: energy residual over the kinetic energy at the start", residual, 0.01)
     for gate in ("checkerboard", "plastic", "both"):
         measured, _, _, residual, seconds = filter_effect(f"A4_gate_{gate}", wedge(8, 40) + filtered("self_adjoint", 0.5, gate))
-        yield at_most(f"self_adjoint 0.5, gate {gate}: raw chi at 80 us", measured, 2.5 * TABLE[2][2], seconds)
+        yield at_most(f"self_adjoint 0.5, gate {gate}: raw chi at 80 us", measured, 1.25 * TABLE[2][2], seconds)
         yield at_most(f"self_adjoint 0.5, gate {gate}: energy residual", residual, 0.01)
 
 
