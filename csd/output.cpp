@@ -71,8 +71,8 @@ Output::Output(const Case& cs, const Model& model, double t_end)
       series_(cs.run.output.directory, "solid"),
       fields_(cs.run.output.fields_every, Schedule::Zero::never),
       rows_(cs.run.output.history_every, Schedule::Zero::every_step),
-      watch_(cs.solid.energy),
       progress_(t_end, cs.run.time.max_steps),
+      watch_(cs.solid.energy),
       start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);

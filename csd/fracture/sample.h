@@ -11,7 +11,7 @@ struct Sample {
   double mises_most = 0;    ///< Pa, no less than Mises' stress; infinite if nothing is known
   double dt = 0;            ///< s, the step
   bool has_stress = false;  ///< the rest is known
-  Sym3 sigma;               ///< Pa, mean Cauchy stress
+  Sym3 sigma = {};          ///< Pa, mean Cauchy stress
   double temperature = 0;   ///< K, mean over the points
 };
 

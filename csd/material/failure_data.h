@@ -31,7 +31,7 @@ struct DamageConstants {
 struct FailureData {
   double spall_stress = 0;         ///< Pa, tension; 0: not known
   double melting_temperature = 0;  ///< K; 0: not known
-  std::optional<DamageConstants> damage;
+  std::optional<DamageConstants> damage = {};
 
   template <class K>
   void describe(K& k) {

@@ -92,7 +92,9 @@ TEST(Blocks, DivideAnyNumberOfCells) {
   for (int n : {1, 4, 16, 64, 97, 100, 208, 250, 256, 400, 1009}) {
     const auto b = choose_block({n, n, n});
     for (int d = 0; d < 3; ++d) EXPECT_EQ(n % b[d], 0) << n;
-    if (n >= 16 && n % 2 == 0) EXPECT_LE(b[1], 40) << n;
+    if (n >= 16 && n % 2 == 0) {
+      EXPECT_LE(b[1], 40) << n;
+    }
   }
 }
 

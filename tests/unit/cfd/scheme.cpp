@@ -145,7 +145,9 @@ TEST_P(KernelShape, PackIsAsDouble) {
         for (int j = 0; j < s.n[1]; ++j)
           for (int i = 0; i < s.n[0]; ++i) change += a.row(r, k, j)[i];
       for (int d = 0; d < 3; ++d) sides += a.side[2 * d][r] - a.side[2 * d + 1][r];
-      if (r != Cons::alpha1) EXPECT_NEAR(change, sides, 1e-11) << r;
+      if (r != Cons::alpha1) {
+        EXPECT_NEAR(change, sides, 1e-11) << r;
+      }
     }
   };
   compare(MixedFlow{closure_of_two});
@@ -191,7 +193,9 @@ TEST(Positivity, FacesStayAboveTheirShare) {
       for (int d = 0; d < 3; ++d)
         for (const double side : {-0.5, 0.5}) {
           EXPECT_GE(half[q] + side * slope[d][q], 0.049 * mean[q]);
-          if (q == Prim::alpha1) EXPECT_GE(1 - half[q] - side * slope[d][q], 0.049 * (1 - mean[q]));
+          if (q == Prim::alpha1) {
+            EXPECT_GE(1 - half[q] - side * slope[d][q], 0.049 * (1 - mean[q]));
+          }
         }
   }
 }
