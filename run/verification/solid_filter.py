@@ -77,6 +77,7 @@ def a4():
             yield close(f"{name}: largest |J - 1|", change, volume, 0.25)
         else:  # without stiffness against it: three dimensions have more such patterns than two, and reach further
             yield at_least(f"{name}: largest |J - 1| over that of the wedge (worse)", change / flat[kind, strength][1], 1)
+            yield at_most(f"{name}: largest |J - 1|", change, 2.5 * volume)
         yield close(f"{name}: foot radius [mm]", foot, radius, 0.01)
         yield at_most(f"{name}: energy residual over the kinetic energy at the start", residual, 0.01)
     for gate in ("checkerboard", "plastic", "both"):
@@ -163,13 +164,16 @@ def s6():
                       results[kind].seconds)
         yield close(f"punch at rest, {kind} 0.5: raw chi (what the unfiltered stress asks for)", measured, reference.roughness(expected), 0.02)
 
-    raw = {}
+    raw, acting = {}, {}
     for kind in kinds:
         result = punch(f"S6_{kind}", 3e-3, filtered(kind))
         table = history(result)
         raw[kind] = table["checkerboard"][-20:].mean()
+        p = mean_stress(result)
+        acting[kind] = inner_roughness(p) / np.abs(p)[1:-1, 1:-1].sum()
         yield at_most(f"punch moving, {kind}: raw chi", raw[kind], 1, result.seconds)
         if kind != "off":
             yield at_most(f"punch moving, {kind}: raw chi at the end over that before (no growth, {int(table['step'][-1])} steps)",
                           raw[kind] / table["checkerboard"][-40:-20].mean(), 1.3)
             yield at_most(f"punch moving, {kind}: raw chi over that without filter", raw[kind] / raw["off"], 1.5)
+            yield at_most(f"punch moving, {kind}: chi of the mean stress that acts over that without filter", acting[kind] / acting["off"], 0.5)

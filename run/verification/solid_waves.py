@@ -84,13 +84,15 @@ def s2b():
                      + node("start", (0.05, 0, 0)) + node("end", (0.85, 0, 0)), only="solid", threads=1)
         table = history(result)
 
-        def passing(name, place):
-            """Mean time of the pulse at a node (of a whole linear pulse it travels at c, whatever the dispersion), and its height."""
+        def passing(name, place, before, after):
+            """Mean time of the pulse at a node within a window around its middle, and its height."""
             v, t = table[f"{name} vx"], table["t"]
-            here = t < (place + 0.5) / c
+            here = (t > (place + 0.1 - before) / c) & (t < (place + 0.1 + after) / c)
             return integral(t[here] * v[here], t[here]) / integral(v[here], t[here]), v[here].max()
-        (t0, _), (t1, peak) = passing("start", 0.05), passing("end", 0.85)
-        yield close(f"filter {kind}: speed over 80 elements [m/s]", 0.8 / (t1 - t0), c, 0.002, result.seconds)
+        # a whole linear pulse travels at c, whatever the dispersion; the narrow window leaves the waves behind it out
+        for which, before, after in (("of the whole pulse", 1.0, 0.4), ("of its front part", 0.14, 0.14)):
+            (t0, _), (t1, peak) = passing("start", 0.05, before, after), passing("end", 0.85, before, after)
+            yield close(f"filter {kind}: speed over 80 elements {which} [m/s]", 0.8 / (t1 - t0), c, 0.002, result.seconds)
         yield at_most(f"filter {kind}: height lost over 85 elements", max(0.0, 1 - peak), 0.01)
         yield at_most(f"filter {kind}: height gained by dispersion", max(0.0, peak - 1), 0.06)
     # a train of waves of 20 elements each: how much slower it runs is the method's own dispersion
