@@ -11,6 +11,7 @@
 #include "common/math/units.h"
 #include "csd/load/face_load.h"
 #include "csd/load/kingery_bulmash.h"
+#include "csd/load/loaded_faces.h"
 #include "csd/load/sets.h"
 
 namespace bw::csd {
@@ -42,7 +43,7 @@ struct Blast {
 
   void select(const Mesh& mesh) {
     const BlastCurves& curves = burst == "free_air" ? free_air::curves : hemisphere::curves;
-    set_ = face_sets(mesh, faces, place);
+    set_ = {mesh, face_sets(mesh, faces, place)};
     wave_.clear();
     for (Face face : set_) {
       const auto n = mesh.nodes_of(face);
@@ -58,18 +59,18 @@ struct Blast {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    for (size_t i = 0; i < set_.size(); ++i) {
-      if (t - start_time < wave_[i].arrival || t - start_time >= wave_[i].arrival + wave_[i].duration) continue;
+    set_.for_each([&](size_t i) {
+      if (t - start_time < wave_[i].arrival || t - start_time >= wave_[i].arrival + wave_[i].duration) return;
       const auto n = mesh.nodes_of(set_[i]);
       const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
       const Vec3 area = cross(corners[2] - corners[0], corners[3] - corners[1]), ray = centre_of(corners) - centre;
       const double cosine = -dot(area, ray) / (norm(area) * norm(ray));
       add_pressure(n, corners, wave_[i].pressure(cosine, t - start_time), f);
-    }
+    });
   }
 
  private:
-  std::vector<Face> set_;
+  LoadedFaces set_;
   std::vector<BlastWave> wave_;  // per face
 };
 

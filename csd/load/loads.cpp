@@ -1,38 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/load/loads.h"
 
+#include <algorithm>
+
 #include "common/parallel/loop.h"
 
 namespace bw::csd {
 
-Loads::Loads(const Mesh& mesh, std::vector<LoadKind> kinds) : kinds_(std::move(kinds)), f_(size_t(mesh.node_count())) {
-  for (auto& kind : kinds_) std::visit([&](auto& load) { load.select(mesh); }, kind);
+std::vector<NodeId> nodes_of_load(const Mesh& mesh, const LoadKind& load) {
+  return std::visit(
+      [&](const auto& l) {
+        std::vector<NodeId> nodes;
+        if constexpr (requires { l.faces; }) {
+          nodes = nodes_of_faces(mesh, face_sets(mesh, l.faces, l.place));
+        } else {
+          if constexpr (requires { l.elements; })
+            if (!l.elements.empty()) {
+              for (const ElemId e : elem_set(mesh, l.elements, l.place))
+                nodes.insert(nodes.end(), mesh.hex[e].begin(), mesh.hex[e].end());
+              return nodes;
+            }
+          for (int32_t n = 0; n < mesh.node_count(); ++n) nodes.push_back(NodeId(n));
+        }
+        return nodes;
+      },
+      load);
+}
+
+Loads::Loads(const Mesh& mesh, std::vector<LoadKind> kinds)
+    : kinds_(std::move(kinds)), f_(size_t(mesh.node_count())), is_loaded_(f_.size(), 0) {
+  for (auto& kind : kinds_) {
+    std::visit([&](auto& load) { load.select(mesh); }, kind);
+    follow(nodes_of_load(mesh, kind));
+  }
+}
+
+void Loads::follow(const std::vector<NodeId>& nodes) {
+  const size_t before = nodes_.size();
+  for (const NodeId n : nodes)
+    if (!is_loaded_[n]) is_loaded_[n] = 1, nodes_.push_back(n);
+  if (nodes_.size() > before) std::sort(nodes_.begin(), nodes_.end());
 }
 
 void Loads::add(const Mesh& mesh, double t, State& s) {
-  parallel_for(int64_t(f_.size()), [&](int64_t n) { f_[NodeId(n)] = {}; });
+  if (!is_spread_) spread_given(mesh);
+  const auto for_loaded = [&](const auto& work) {
+    parallel_for(int64_t(nodes_.size()), [&](int64_t i) { work(nodes_[size_t(i)]); });
+  };
+  for_loaded([&](NodeId n) { f_[n] = {}; });
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
-  add_given(mesh);
-  parallel_for(int64_t(f_.size()), [&](int64_t n) { s.f[NodeId(n)] += f_[NodeId(n)]; });
+  if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
+  for_loaded([&](NodeId n) { s.f[n] += f_[n]; });
 }
 
 double Loads::power(const State& s) const {
-  return parallel_sum(int64_t(f_.size()), [&](int64_t n) { return dot(f_[NodeId(n)], s.v[NodeId(n)]); });
+  return parallel_sum(int64_t(nodes_.size()),
+                      [&](int64_t i) { return dot(f_[nodes_[size_t(i)]], s.v[nodes_[size_t(i)]]); });
 }
 
-void Loads::add_given(const Mesh& mesh) {
+void Loads::spread_given(const Mesh& mesh) {
+  given_f_.resize(f_.size());
+  parallel_for(int64_t(nodes_.size()), [&](int64_t i) { given_f_[nodes_[size_t(i)]] = {}; });
   for (const auto& [face, f] : given_)
-    for (NodeId n : mesh.nodes_of(face)) f_[n] += 0.25 * f;
+    for (NodeId n : mesh.nodes_of(face)) given_f_[n] += 0.25 * f;
+  is_spread_ = true;
 }
 
 void Loads::replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s) {
-  for (size_t n = 0; n < f_.size(); ++n) s.f[NodeId(int64_t(n))] -= f_[NodeId(int64_t(n))];
+  parallel_for(int64_t(nodes_.size()), [&](int64_t i) { s.f[nodes_[size_t(i)]] -= f_[nodes_[size_t(i)]]; });
   given_ = std::move(forces);
+  std::vector<NodeId> nodes;
+  for (const auto& [face, f] : given_)
+    for (const NodeId n : mesh.nodes_of(face))
+      if (!is_loaded_[n]) nodes.push_back(n);
+  follow(nodes);
+  is_spread_ = false;
   add(mesh, s.t, s);
 }
 
 void Loads::append_copies(std::span<const NodeSplit> splits) {
-  for (const NodeSplit& split : splits) f_.push_back(f_[split.parent]);
+  for (const NodeSplit& split : splits) {
+    f_.push_back(f_[split.parent]), is_loaded_.push_back(is_loaded_[split.parent]);
+    if (is_loaded_[split.child]) nodes_.push_back(split.child);
+  }
+  is_spread_ = is_spread_ && given_f_.size() == 0;
 }
 
 }  // namespace bw::csd

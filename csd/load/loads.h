@@ -10,6 +10,10 @@
 
 namespace bw::csd {
 
+/// Nodes whose forces a load sums, and whose velocities its work asks for; some may stand twice.
+std::vector<NodeId> nodes_of_load(const Mesh& mesh, const LoadKind& load);
+
+/// Loops go over the nodes that are loaded alone.
 class Loads {
  public:
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
@@ -26,12 +30,19 @@ class Loads {
   /// Nodal forces of the last add() [N].
   Field<Vec3, NodeId>& forces() { return f_; }
   const Field<Vec3, NodeId>& forces() const { return f_; }
+  /// Those that may bear a load.
+  const std::vector<NodeId>& nodes() const { return nodes_; }
 
  private:
   std::vector<LoadKind> kinds_;
-  void add_given(const Mesh& mesh);
+  void follow(const std::vector<NodeId>& nodes);
+  void spread_given(const Mesh& mesh);
   std::vector<std::pair<Face, Vec3>> given_;
-  Field<Vec3, NodeId> f_;  // N
+  Field<Vec3, NodeId> given_f_;    // N, of given_; empty without
+  bool is_spread_ = true;          // given_f_ is up to date
+  Field<Vec3, NodeId> f_;          // N
+  std::vector<NodeId> nodes_;      // ascending
+  Field<char, NodeId> is_loaded_;  // in nodes_
 };
 
 }  // namespace bw::csd

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "csd/load/face_load.h"
+#include "csd/load/loaded_faces.h"
 #include "csd/load/sets.h"
 #include "csd/load/table.h"
 
@@ -23,19 +24,19 @@ struct Pressure {
     if (!k.is_manual()) place = k.where("faces");
   }
 
-  void select(const Mesh& mesh) { set_ = face_sets(mesh, faces, place); }
+  void select(const Mesh& mesh) { set_ = {mesh, face_sets(mesh, faces, place)}; }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
     const double p = table.at(t);
     if (p == 0) return;
-    for (Face face : set_) {
-      const auto n = mesh.nodes_of(face);
+    set_.for_each([&](size_t i) {
+      const auto n = mesh.nodes_of(set_[i]);
       add_pressure(n, {x[n[0]], x[n[1]], x[n[2]], x[n[3]]}, p, f);
-    }
+    });
   }
 
  private:
-  std::vector<Face> set_;
+  LoadedFaces set_;
 };
 
 }  // namespace bw::csd

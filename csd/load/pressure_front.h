@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "csd/load/face_load.h"
+#include "csd/load/loaded_faces.h"
 #include "csd/load/sets.h"
 #include "csd/load/table.h"
 
@@ -44,7 +45,7 @@ struct PressureFront {
     if (!k.is_manual()) place = k.where("faces");
   }
 
-  void select(const Mesh& mesh) { set_ = face_sets(mesh, faces, place), profile_ = {behind, factors}; }
+  void select(const Mesh& mesh) { set_ = {mesh, face_sets(mesh, faces, place)}, profile_ = {behind, factors}; }
   /// Pa, at a point.
   double pressure(const Vec3& x, double t) const {
     const double d = speed * (t - start_time) - dot(x - start, unit(axis));
@@ -53,15 +54,15 @@ struct PressureFront {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    for (Face face : set_) {
-      const auto n = mesh.nodes_of(face);
+    set_.for_each([&](size_t i) {
+      const auto n = mesh.nodes_of(set_[i]);
       const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
       if (const double p = pressure(centre_of(corners), t); p > 0) add_pressure(n, corners, p, f);
-    }
+    });
   }
 
  private:
-  std::vector<Face> set_;
+  LoadedFaces set_;
   Table profile_;  // factor by distance
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "csd/load/face_load.h"
+#include "csd/load/loaded_faces.h"
 #include "csd/load/sets.h"
 #include "csd/load/table.h"
 
@@ -29,7 +30,7 @@ struct Traction {
   }
 
   void select(const Mesh& mesh) {
-    set_ = face_sets(mesh, faces, place);
+    set_ = {mesh, face_sets(mesh, faces, place)};
     share_.clear();
     double area = 0;
     for (Face face : set_) {
@@ -44,14 +45,14 @@ struct Traction {
   void add(const Mesh& mesh, const Field<Vec3, NodeId>&, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
     const Vec3 now = (factor ? factor->at(t) : 1.0) * per_area_;
-    for (size_t i = 0; i < set_.size(); ++i) {
+    set_.for_each([&](size_t i) {
       const auto n = mesh.nodes_of(set_[i]);
       for (size_t a = 0; a < 4; ++a) f[n[a]] += share_[i][a] * now;
-    }
+    });
   }
 
  private:
-  std::vector<Face> set_;
+  LoadedFaces set_;
   std::vector<std::array<double, 4>> share_;  // m^2 of each node of the faces
   Vec3 per_area_{};                           // Pa
 };

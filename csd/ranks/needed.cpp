@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/ranks/needed.h"
 
-#include "csd/load/sets.h"
+#include "csd/load/loads.h"
 
 namespace bw::csd {
 namespace {
@@ -12,21 +12,6 @@ std::vector<NodeId> all_nodes(const Mesh& mesh) {
   return nodes;
 }
 
-/// Nodes whose forces a load sums, and whose velocities its work asks for.
-template <class L>
-std::vector<NodeId> nodes_of_load(const Mesh& mesh, const L& load) {
-  if constexpr (requires { load.faces; }) {
-    return nodes_of_faces(mesh, face_sets(mesh, load.faces, load.place));
-  } else if constexpr (requires { load.elements; }) {
-    if (load.elements.empty()) return all_nodes(mesh);
-    std::vector<NodeId> nodes;
-    for (const ElemId e : elem_set(mesh, load.elements, load.place))
-      nodes.insert(nodes.end(), mesh.hex[e].begin(), mesh.hex[e].end());
-    return nodes;
-  } else {
-    return all_nodes(mesh);
-  }
-}
 template <class C>
 std::vector<NodeId> nodes_of_condition(const Mesh&, const C& condition) {
   return condition.reaction.nodes;
@@ -43,7 +28,7 @@ std::vector<char> nodes_needed_everywhere(const Mesh& mesh, const std::vector<Lo
   const auto mark = [&](const std::vector<NodeId>& nodes) {
     for (const NodeId n : nodes) is_needed[size_t(n)] = 1;
   };
-  for (const LoadCase& load : loads) std::visit([&](const auto& kind) { mark(nodes_of_load(mesh, kind)); }, load.kind);
+  for (const LoadCase& load : loads) mark(nodes_of_load(mesh, load.kind));
   for (const ConditionKind& condition : conditions)
     std::visit([&](const auto& kind) { mark(nodes_of_condition(mesh, kind)); }, condition);
   return is_needed;

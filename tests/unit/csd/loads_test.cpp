@@ -51,6 +51,80 @@ TEST(Loads, FrontWithAnyDecay) {
   EXPECT_NEAR(front.pressure({0, 0, 0}, 0.5e-3), 0.1e9, 1);
 }
 
+/// Forces of a front and of given forces on a cracked box, walked by the loaded nodes alone, against all faces in turn.
+TEST(Loads, GoOverLoadedNodesAlone) {
+  PressureFront front;
+  front.peak = 1e9, front.speed = 1000, front.axis = {1, 0, 0}, front.faces = {"y_lower"}, front.decay = 2;
+  Mesh mesh = box({0, 0, 0}, {1, 0.1, 0.5}, {40, 2, 20}, 0.1);
+  Topology topology(mesh);
+  State s;
+  s.resize(mesh.X.size(), 0);
+  s.x = mesh.X;
+  for (size_t n = 0; n < s.v.size(); ++n) s.v[NodeId(int64_t(n))] = {1.0 + double(n % 7), double(n % 5), -2};
+  Loads loads(mesh, {front});
+  EXPECT_EQ(loads.nodes().size(), 41 * 21u);
+  const std::vector<Face> loaded = mesh.face_sets.at("y_lower");
+  std::vector<std::pair<Face, Vec3>> given;
+  for (const Face f : mesh.face_sets.at("x_upper")) given.push_back({f, {0, 0, 3e3 + f.elem}});
+  const auto expected = [&](double t) {
+    Field<Vec3, NodeId> f(mesh.X.size());
+    for (const Face face : loaded) {
+      const auto n = mesh.nodes_of(face);
+      const std::array<Vec3, 4> x{s.x[n[0]], s.x[n[1]], s.x[n[2]], s.x[n[3]]};
+      if (const double p = front.pressure(centre_of(x), t); p > 0) add_pressure(n, x, p, f);
+    }
+    for (const auto& [face, force] : given)
+      for (const NodeId n : mesh.nodes_of(face)) f[n] += 0.25 * force;
+    return f;
+  };
+  const auto expect_all = [&](double t) {
+    const Field<Vec3, NodeId> f = expected(t);
+    double power = 0, largest = 0;
+    for (size_t i = 0; i < f.size(); ++i) {
+      const NodeId n{int64_t(i)};
+      expect_near(loads.forces()[n], f[n], 1e-9 * front.peak * 1e-3);
+      expect_near(s.f[n], f[n], 1e-9 * front.peak * 1e-3);
+      power += dot(f[n], s.v[n]), largest = std::max(largest, norm(f[n]));
+    }
+    EXPECT_GT(largest, 1e3);
+    EXPECT_NEAR(loads.power(s), power, 1e-9 * std::abs(power));
+  };
+  loads.replace_given(mesh, given, s);  // at t = 0: no front yet
+  expect_all(0);
+  s.f = Field<Vec3, NodeId>(mesh.X.size());
+  loads.add(mesh, 0.6e-3, s);
+  expect_all(0.6e-3);
+  std::vector<NodeSplit> splits;  // an element on a loaded edge comes away at one node
+  for (const Face f : {mesh.face_sets.at("x_upper").front(), loaded.back()}) {
+    const NodeId n = mesh.nodes_of(f)[0];
+    const std::vector<ElemId> moved{topology.elements(n).back()};
+    if (topology.elements(n).size() > 1) splits.push_back({n, topology.split(mesh, n, moved)});
+  }
+  ASSERT_FALSE(splits.empty());
+  s.append_copies(splits), loads.append_copies(splits);
+  s.f = Field<Vec3, NodeId>(mesh.X.size());
+  loads.add(mesh, 0.7e-3, s);
+  expect_all(0.7e-3);
+}
+
+TEST(Loads, SameBitsForAnyNumberOfThreads) {
+  PressureFront front;
+  front.peak = 1e9, front.speed = 1000, front.axis = {1, 0, 0}, front.faces = {"y_lower", "x_lower"}, front.decay = 2;
+  Mesh mesh = box({0, 0, 0}, {1, 0.1, 0.5}, {80, 2, 40}, 0.2);
+  front.select(mesh);
+  const Field<double, NodeId> m(mesh.X.size(), 1.0);
+  const int threads = thread_count();
+  std::vector<Field<Vec3, NodeId>> forces;
+  for (const int count : {1, 2, 3}) {
+    set_thread_count(count);
+    forces.emplace_back(mesh.X.size());
+    front.add(mesh, mesh.X, m, 1e-3, forces.back());
+  }
+  set_thread_count(threads);
+  for (size_t n = 0; n < mesh.X.size(); ++n)
+    for (size_t k : {1u, 2u}) ASSERT_TRUE(forces[k][NodeId(int64_t(n))] == forces[0][NodeId(int64_t(n))]) << n;
+}
+
 TEST(Blast, TableOfFreeAir) {  // VALIDATION F9: Z, arrival ms, incident, reflected kPa, impulses kPa ms
   const double table[6][6] = {{.5, .1541, 3885, 30360, 141.3, 1454},  {1, .5318, 934.9, 5006, 174.5, 559.0},
                               {2, 1.944, 194.7, 645.8, 92.12, 235.7}, {3, 3.987, 81.59, 215.5, 64.33, 147.1},

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csd/load/loaded_faces.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "csd/mesh/faces.h"
+
+namespace bw::csd {
+
+LoadedFaces::LoadedFaces(const Mesh& mesh, std::vector<Face> faces) : faces_(std::move(faces)) {
+  std::sort(faces_.begin(), faces_.end(), [](Face a, Face b) { return face_code(a) < face_code(b); });
+  constexpr size_t group_size = 128;
+  std::vector<uint64_t> used(size_t(mesh.node_count()), 0);  // colours of the groups at a node, a bit each
+  for (size_t first = 0; first < faces_.size(); first += group_size) {
+    const size_t last = std::min(first + group_size, faces_.size());
+    uint64_t taken = 0;
+    for (size_t i = first; i < last; ++i)
+      for (const NodeId n : mesh.nodes_of(faces_[i])) taken |= used[size_t(n)];
+    size_t colour = 0;
+    while (colour < 63 && (taken >> colour & 1)) ++colour;
+    // the last of them all is for groups that found none free: those run one by one
+    const bool is_alone = colour == 63;
+    if (is_alone) colour = std::max<size_t>(colours_.size(), 63);
+    if (colours_.size() <= colour) colours_.resize(colour + 1);
+    colours_[colour].push_back({first, last});
+    if (is_alone) continue;
+    for (size_t i = first; i < last; ++i)
+      for (const NodeId n : mesh.nodes_of(faces_[i])) used[size_t(n)] |= uint64_t{1} << colour;
+  }
+}
+
+}  // namespace bw::csd
