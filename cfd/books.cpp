@@ -9,10 +9,10 @@ namespace bw::cfd {
 
 void Books::refresh(const Model& m, const std::vector<int>& blocks) {
   const int cells = m.forest.shape().cells();
-  const double volume = m.forest.shape().cell_volume();
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t n) {
     const int b = blocks[size_t(n)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
+    const double volume = m.forest.shape(b).cell_volume();
     FluidSums sum;
     for (int q = 0; q < Cons::count; ++q) {
       const double* U = m.state.block(b, q);

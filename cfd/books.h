@@ -16,7 +16,9 @@ struct FluidSums {
 
 class Books {
  public:
-  explicit Books(const Model& m) : per_block_(size_t(m.forest.local_blocks())) {}
+  explicit Books(const Model& m) { fit(m); }
+  /// The forest has other blocks now: refresh all of them.
+  void fit(const Model& m) { per_block_.assign(size_t(m.forest.local_blocks()), {}); }
   void refresh(const Model& m, const std::vector<int>& blocks);
   /// Collective.
   FluidSums sums(const Model& m) const;

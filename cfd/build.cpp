@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
+#include "cfd/adapt.h"
 #include "cfd/embed/cavity.h"
 #include "cfd/eos/library.h"
 #include "cfd/source/detonation.h"
@@ -72,7 +72,9 @@ void report_detonation(const MaterialCase& m, const Jwl& jwl, const CjState& cj)
     warn("{}: the JWL set gives P_CJ = {:.3f} GPa, tabulated are {:.3f}", m.name, 1e-9 * cj.p, 1e-9 * jwl.p_CJ);
 }
 
-std::optional<Burn> make_burn(const Case& cs, const BlockShape& shape, const GridSize& grid) {
+std::optional<Burn> make_burn(const Case& cs, const Forest& forest) {
+  const BlockShape& shape = forest.finest_shape();  // explosives burn there
+  const GridSize& grid = forest.size();
   if (cs.fluid.burn.empty()) return {};
   const BurnCase& b = cs.fluid.burn[0];
   const MaterialCase& m = cs.fluid.material[size_t(cs.fluid.material_index(b.material, b.place))];
@@ -89,6 +91,7 @@ std::optional<Burn> make_burn(const Case& cs, const BlockShape& shape, const Gri
   for (int d = 0; d < 3; ++d)
     if (shape.used[size_t(d)]) {
       burn.h = std::max(burn.h, shape.h[d]);
+      burn.margin = std::max(burn.margin, forest.shape().h[d]);
     } else {
       for (Vec3& p : burn.points) p[d] = 0.5 * (grid.lower[d] + grid.upper[d]);
     }
@@ -136,8 +139,8 @@ void blend(State& state, int block, size_t cell, const double (&fresh)[Cons::cou
 
 template <class Shape>
 void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
-  const BlockShape& s = m.forest.shape();
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
+    const BlockShape& s = m.forest.shape(int(b));
     const Vec3 lower = m.forest.lower(int(b));
     for (int k = 0; k < s.n[2]; ++k)
       for (int j = 0; j < s.n[1]; ++j)
@@ -148,44 +151,40 @@ void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
   });
 }
 
-void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::count]) {
+void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::count], bool last) {
   if (!m.walls) throw InputError(fmt::format("{}: expected no cavity: it needs the surface of a body, from csd or from [[fluid.body]]", region.place));
   const Cavity cavity = find_cavity(m.walls->surface(), m.walls->map(), shape.seed);
   if (cavity.cells.empty()) throw InputError(fmt::format("{}: the cavity's seed lies in metal or outside the domain", region.place));
   if (cavity.reaches_boundary)
     throw InputError(fmt::format("{}: from the cavity's seed the side of the domain is reached: no closed surface is around it", region.place));
-  std::vector<Index3> cells = cavity.cells;
-  const BlockShape& s = m.forest.shape();
-  std::vector<std::vector<Index3>> by_block(size_t(m.forest.local_blocks()));
-  std::vector<std::vector<int>> slot;
-  std::map<Index3, int> block_at;
-  for (int b = 0; b < m.forest.local_blocks(); ++b) block_at[m.forest.place(b)] = b;
-  for (const Index3& c : cells) {
-    const auto found = block_at.find({c[0] / s.n[0], c[1] / s.n[1], c[2] / s.n[2]});
-    if (found == block_at.end()) continue;
-    blend(m.state, found->second, s.at(c[2] % s.n[2], c[1] % s.n[1], c[0] % s.n[0]), U, 1);
-  }
+  for (const Index3& c : cavity.cells)
+    if (const Forest::Cell at = m.forest.find_finest(c); at.block >= 0 && at.block < m.forest.local_blocks())
+      blend(m.state, at.block, m.forest.shape().at(at.k, at.j, at.i), U, 1);
   const double density = U[Cons::arho1] + U[Cons::arho2];
   m.cavity_mass += density * cavity.exact_volume;
-  say("cavity of {:.6g} m^3 ({:.6g} in {} cells, {:+.3f} %): {:.6g} kg of {}", cavity.exact_volume, cavity.cell_volume, cells.size(),
+  if (last) say("cavity of {:.6g} m^3 ({:.6g} in {} cells, {:+.3f} %): {:.6g} kg of {}", cavity.exact_volume, cavity.cell_volume, cavity.cells.size(),
       100 * (cavity.cell_volume / cavity.exact_volume - 1), density * cavity.cell_volume, region.material);
 }
 
 /// A detonation point must lie in unburnt explosive; everything is burnt when the front has crossed all of it.
 void check_burn(Model& m, const Case& cs) {
   Burn& burn = *m.setup.burn;
-  const BlockShape& s = m.forest.shape();
   int64_t in_explosive = 0;
   for (const Vec3& p : burn.points) {
     const Forest::Cell c = m.forest.find(p);
-    const bool blocked = c.block >= 0 && m.walls &&
-                         [&] { const auto f = m.forest.first_cell(c.block); return m.walls->map().blocked({f[0] + c.i, f[1] + c.j, f[2] + c.k}); }();
-    if (m.forest.comm().max(int64_t(c.block >= 0 && !blocked && m.state.block(c.block, Cons::alpha1)[s.at(c.k, c.j, c.i)] > 0.5)) > 0) ++in_explosive;
+    bool inside = false;
+    if (c.block >= 0) {
+      const std::vector<uint8_t> blocked = blocked_cells(m, c.block);
+      const size_t cell = m.forest.shape().at(c.k, c.j, c.i);
+      inside = (blocked.empty() || !blocked[cell]) && m.state.block(c.block, Cons::alpha1)[cell] > 0.5;
+    }
+    if (m.forest.comm().max(int64_t(inside)) > 0) ++in_explosive;
   }
   if (in_explosive < int64_t(burn.points.size()))
     throw InputError(fmt::format("{}: expected detonation points inside the explosive", cs.fluid.burn[0].place));
   double far = 0;
   for (int b = 0; b < m.forest.local_blocks(); ++b) {
+    const BlockShape& s = m.forest.shape(b);
     const Vec3 lower = m.forest.lower(b);
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
     for (int k = 0; k < s.n[2]; ++k)
@@ -206,22 +205,29 @@ Model::Model(const Comm& comm, const Case& cs)
     : forest(comm, cs.fluid.grid), state(forest) {
   setup.medium = make_medium(cs);
   setup.boundary = make_boundary(setup.medium, cs);
-  setup.burn = make_burn(cs, forest.shape(), cs.fluid.grid);
+  setup.burn = make_burn(cs, forest);
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
+  if (cs.fluid.amr) refine = cs.fluid.amr->rules;
 }
 
 void add_walls(Model& m, double p_ref) {
   const GridSize& size = m.forest.size();
-  const BlockShape& s = m.forest.shape();
-  Lattice lattice{size.lower, s.h, {size.cells[0], size.cells[1], size.cells[2]}};
+  const BlockShape& s = m.forest.finest_shape();
+  Lattice lattice{size.lower, s.h, m.forest.cells_of_level(m.forest.levels())};
   m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref);
 }
 
 std::vector<uint8_t> blocked_cells(const Model& m, int block) {
   std::vector<uint8_t> blocked;
-  const Index3 first = m.forest.first_cell(block);
-  if (!m.walls || !m.walls->near(first)) return blocked;
+  if (!m.walls) return blocked;
   const BlockShape& s = m.forest.shape();
+  const Index3 first = m.forest.first_finest(block), n = m.forest.finest_cells(block);
+  const bool finest = m.forest.level(block) == m.forest.levels();
+  if (finest ? !m.walls->near(first) : !m.walls->map().touches(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]})) return blocked;
+  if (!finest) {  // all metal, or none
+    if (m.walls->map().blocked(first)) blocked.assign(size_t(s.cells()), 1);
+    return blocked;
+  }
   blocked.assign(size_t(s.cells()), 0);
   bool any = false;
   for (int k = 0; k < s.n[2]; ++k)
@@ -238,18 +244,21 @@ void inspect(Model& m, const std::vector<int>& blocks) {
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
     const int b = blocks[size_t(i)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
-    m.state.info[size_t(b)] = inspect_block(m.setup.medium, m.forest.shape(), m.state.block(b), blocked.empty() ? nullptr : blocked.data());
+    m.state.info[size_t(b)] = inspect_block(m.setup.medium, m.forest.shape(b), m.state.block(b), blocked.empty() ? nullptr : blocked.data());
   });
 }
 
-void paint(Model& m, const Case& cs) {
+namespace {
+
+void paint_regions(Model& m, const Case& cs, bool last) {
+  m.cavity_mass = 0;
   for (const RegionCase& r : cs.fluid.region) {
     double U[Cons::count];
     state_of(m.setup.medium, cs, r, U);
     std::visit(
         [&](const auto& shape) {
           if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, CavityRegion>)
-            paint_cavity(m, shape, r, U);
+            paint_cavity(m, shape, r, U, last);
           else
             paint_shape(m, shape, U);
         },
@@ -266,8 +275,18 @@ void paint(Model& m, const Case& cs) {
   }
   if (const double n = m.forest.comm().sum(unpainted); n > 0)
     throw InputError(fmt::format("{}: fluid.region: {:g} cells belong to no region: begin with shape = {{kind = \"everywhere\"}}", cs.file, n));
-  if (m.setup.burn) check_burn(m, cs);
   inspect(m, all);
+}
+
+}  // namespace
+
+void paint(Model& m, const Case& cs) {
+  paint_regions(m, cs, !m.refine);
+  if (m.refine) {
+    for (int i = 0; i < m.forest.levels() && adapt_unpainted(m); ++i) paint_regions(m, cs, false);
+    paint_regions(m, cs, true);
+  }
+  if (m.setup.burn) check_burn(m, cs);
 }
 
 }  // namespace bw::cfd

@@ -20,6 +20,7 @@ struct Model {
   Forest forest;
   State state;
   FlowSetup setup;
+  std::optional<RefineRules> refine;  ///< none: a uniform grid
   std::optional<Walls> walls;    ///< embedded surface, if there is one
   std::optional<Bodies> bodies;  ///< stand-alone: what moves it
   double explosive_mass = 0;     ///< kg, at t = 0

@@ -46,6 +46,8 @@ void FluidCase::describe(Keys& k) {
     k.expect(grid.upper[int(d)] > grid.lower[int(d)], "upper", "a point above lower in x, y and z");
     grid.cells[d] = cells[d];
   }
+  k.table("amr", amr, "blocks of cells that are halved where the flow or a wall needs it");
+  if (amr) use_levels(k);
   k.table("boundary", boundary, "the six sides of the domain");
   for (size_t d = 0; d < 3; ++d) grid.periodic[d] = boundary.side[2 * d] == "periodic";
   k.table("scheme", scheme, "the flow solver");
@@ -60,6 +62,21 @@ void FluidCase::describe(Keys& k) {
   if (!k.is_manual()) check(k);
   // the flow kernels carry stored energy with material 1
   if (material.size() == 2 && !burn.empty() && material[1].name == burn[0].material) std::swap(material[0], material[1]);
+}
+
+void FluidCase::use_levels(Keys& k) {
+  grid.levels = amr->levels;
+  const std::array<int, 3> n = choose_block(grid.cells, amr->levels);
+  const int multiple = std::max(2, 1 << amr->levels);
+  for (size_t d = 0; d < 3; ++d) {
+    grid.block[d] = grid.cells[d] == 1 ? 1 : amr->block > 0 ? amr->block : n[d];
+    if (k.is_manual() || grid.cells[d] == 1) continue;
+    if (grid.block[d] == 0)
+      k.fail("cells", fmt::format("cells that blocks of 8 to 16 cells, a multiple of {}, divide, for {} levels in [fluid.amr]: {} are not", multiple,
+                                  amr->levels, grid.cells[d]));
+    if (grid.cells[d] % grid.block[d] != 0 || grid.block[d] % multiple != 0)
+      k.fail("amr", fmt::format("a block that divides the cells, here {}, and is a multiple of {}", grid.cells[d], multiple));
+  }
 }
 
 int FluidCase::material_index(const std::string& name, const std::string& place) const {

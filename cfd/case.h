@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cfd/amr/boundary.h"
-#include "cfd/amr/forest.h"
+#include "cfd/amr/criteria.h"
 #include "cfd/embed/body.h"
 #include "cfd/medium.h"
 #include "cfd/regions.h"
@@ -38,6 +37,14 @@ struct StateCase {
   }
 };
 
+struct ShapeTable {
+  RegionShape shape;
+  template <class K>
+  void describe(K& k) {
+    k.pick("kind", shape, "geometry", true);
+  }
+};
+
 struct RegionCase : StateCase {
   RegionShape shape;
   template <class K>
@@ -47,15 +54,45 @@ struct RegionCase : StateCase {
     shape = table.shape;
     StateCase::describe(k);
   }
+};
 
- private:
-  struct ShapeTable {
-    RegionShape shape;
-    template <class K>
-    void describe(K& k) {
-      k.pick("kind", shape, "geometry", true);
-    }
-  };
+struct FineRegionCase : FineRegion {
+  template <class K>
+  void describe(K& k) {
+    ShapeTable table{shape};
+    k.table("shape", table, "where; blocks that it touches are of this level at least");
+    shape = table.shape;
+    k.required("level", level, "from 1 to levels");
+    k.expect(!std::holds_alternative<CavityRegion>(shape), "shape", "any shape but a cavity");
+  }
+};
+
+struct AmrCase {
+  int levels = 1, block = 0;
+  RefineRules rules;
+  template <class K>
+  void describe(K& k) {
+    k.required("levels", levels, "how often cells may be halved; [fluid] cells counts those of level 0");
+    k.optional("block", block, "cells per block and used direction, even, at least 8; 0: chosen, from 8 to 16");
+    k.optional("every", rules.every, "steps between two looks at the grid");
+    k.optional("follow_flow", rules.follow_flow, "refine where density or pressure jumps or bends (Lohner's indicator)");
+    k.optional("refine", rules.refine, dim::none, "indicator, from 0 to 1, above which a cell asks for the next level");
+    k.optional("coarsen", rules.coarsen, dim::none, "indicator below which no cell needs the level it is on");
+    k.optional("buffer", rules.buffer, "cells around such a cell that are refined with it");
+    k.optional("wall_cells", rules.wall_cells, "of the finest level around every wall that are of the finest level");
+    std::vector<FineRegionCase> regions;
+    k.tables("region", regions, "where the grid is fine from the start to the end");
+    rules.region.assign(regions.begin(), regions.end());
+    k.expect(levels >= 1 && levels <= 5, "levels", "a number from 1 to 5");
+    k.expect(block == 0 || (block >= 8 && block % 2 == 0), "block", "0 or an even number of at least 8 cells");
+    k.expect(rules.every >= 1, "every", "a positive number");
+    k.expect(rules.refine > 0 && rules.refine <= 1, "refine", "a number in (0, 1]");
+    k.expect(rules.coarsen >= 0 && rules.coarsen < rules.refine, "coarsen", "a number from 0 to below refine");
+    k.expect(rules.buffer >= 1, "buffer", "a positive number");
+    // walls move up to half a cell a step
+    k.expect(2 * rules.wall_cells >= 10 + rules.every, "wall_cells", "at least 5 + every/2 cells");
+    for (const FineRegion& r : rules.region) k.expect(r.level >= 1 && r.level <= levels, "region", "level from 1 to levels");
+  }
 };
 
 struct InflowCase : StateCase {
@@ -176,6 +213,7 @@ struct BoundaryCase {
 struct FluidCase {
   int threads = 0;
   GridSize grid;
+  std::optional<AmrCase> amr;
   BoundaryCase boundary;
   SchemeCase scheme;
   std::vector<MaterialCase> material;
@@ -192,6 +230,7 @@ struct FluidCase {
   int material_index(const std::string& name, const std::string& place) const;
 
  private:
+  void use_levels(Keys& k);
   void check(Keys& k) const;
 };
 

@@ -52,13 +52,12 @@ std::vector<History::Column> gauge_columns(const Case& cs) {
 double stored_energy(const Model& m) {
   if (!m.setup.burn) return 0;
   const Burn& burn = *m.setup.burn;
-  const BlockShape& s = m.forest.shape();
   std::vector<double> part(size_t(m.forest.local_blocks()));
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
     if (m.state.info[size_t(b)].material == 2) return;
+    const BlockShape& s = m.forest.shape(int(b));
     const Vec3 lower = m.forest.lower(int(b));
-    const Vec3 size{s.n[0] * s.h.x, s.n[1] * s.h.y, s.n[2] * s.h.z};
-    if (burn.phase(lower, lower + size, m.state.t, m.state.t) == Burn::Phase::after) return;
+    if (burn.phase(lower, lower + m.forest.extent(int(b)), m.state.t, m.state.t) == Burn::Phase::after) return;
     const std::vector<uint8_t> blocked = blocked_cells(m, int(b));
     const double* arho = m.state.block(int(b), Cons::arho1);
     double sum = 0;
@@ -178,54 +177,13 @@ void Output::write_row(const Model& m, const Books& books) {
 void Output::write_fields(const Model& m) {
   if (m.state.t == t_fields_) return;
   t_fields_ = m.state.t;
-  const BlockShape& s = m.forest.shape();
-  std::vector<int> blocks;
-  for (int b = 0; b < m.forest.local_blocks(); ++b) {
-    bool wanted = true;
-    const Vec3 lower = m.forest.lower(b);
-    if (const auto& box = case_.fluid.fields)
-      for (int d = 0; d < 3; ++d)
-        wanted = wanted && lower[d] <= box->upper[d] && lower[d] + s.n[size_t(d)] * s.h[d] >= box->lower[d];
-    if (wanted) blocks.push_back(b);
-  }
-  const size_t cells = size_t(s.cells()), n = cells * blocks.size();
-  std::vector<double> rho(n), p(n), alpha(n);
-  std::vector<Vec3> v(n);
-  std::vector<uint8_t> covered(n, 0);
-  VtkLevel level;
-  level.spacing = s.h;
-  for (int b : blocks) {
-    const auto c = m.forest.first_cell(b);
-    level.boxes.push_back({c[0], c[0] + s.n[0] - 1, c[1], c[1] + s.n[1] - 1, c[2], c[2] + s.n[2] - 1});
-  }
-  parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
-    const int b = blocks[size_t(i)];
-    const std::vector<uint8_t> blocked = blocked_cells(m, b);
-    std::visit(
-        [&](const auto& pair) {
-          for (size_t c = 0; c < cells; ++c) {
-            double U[Cons::count], W[Prim::stored];
-            for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(b, q)[c];
-            pair.to_primitive(U, W, m.setup.medium.floors);
-            const size_t at = size_t(i) * cells + c;
-            rho[at] = U[0] + U[1], p[at] = W[Prim::p], alpha[at] = W[Prim::alpha1];
-            v[at] = {W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
-            covered[at] = blocked.empty() ? 0 : blocked[c];
-          }
-        },
-        m.setup.medium.mixture);
-  });
-  level.fields = {VtkField::scalars("density", rho), VtkField::scalars("pressure", p), VtkField::vectors("velocity", v)};
-  if (case_.fluid.material.size() == 2) level.fields.push_back(VtkField::scalars("alpha_" + case_.fluid.material[0].name, alpha));
-  if (m.walls) level.fields.push_back({"covered", 1, std::span<const uint8_t>(covered)});
-  for (VtkField& f : level.fields) f.exact = case_.run.output.exact;
-  write_vtkhdf(series_.next_path(), m.forest.size().lower, {level}, m.forest.comm());
+  write_field_file(series_.next_path(), case_, m);
   series_.add(m.state.t, m.forest.comm());
 }
 
 void Output::write_lines(const Model& m) {
   for (const LineCase& line : case_.fluid.line) {
-    const BlockShape& s = m.forest.shape();
+    const BlockShape& s = m.forest.finest_shape();
     const Vec3 along = line.to - line.from;
     double cells = 0;
     for (int d = 0; d < 3; ++d)

@@ -51,6 +51,10 @@ class Output {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// One field file: density, pressure, velocity, volume fraction and covered cells of the blocks that the case wants,
+/// on their levels; coarser levels hold means where there are finer ones. Collective.
+void write_field_file(const std::string& path, const Case& cs, const Model& m);
+
 /// Energy set free by the burn so far [J]: what left the stored form.
 double stored_energy(const Model& m);
 

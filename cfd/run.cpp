@@ -61,13 +61,23 @@ double step_towards(double t, double next, double dt) {
   return left / std::ceil(left / dt * (1 - 1e-12));
 }
 
+/// Cells of the domain if all were of the finest level.
+double finest_cells(const Model& m) {
+  const Index3 n = m.forest.cells_of_level(m.forest.levels());
+  return double(n[0]) * n[1] * n[2];
+}
+
 void open_model(Model& m, const Case& cs, Books& books) {
   paint(m, cs);
+  books.fit(m);
   std::vector<int> all;
   for (int b = 0; b < m.forest.local_blocks(); ++b) all.push_back(b);
   books.refresh(m, all);
   const FluidSums s = books.sums(m);
   if (m.setup.burn) m.explosive_mass = s.U[Cons::arho1];
+  if (m.refine)
+    say("levels 0 to {} of cells; {} cells at the start, {:.2g} of them if all were of the finest level", m.forest.levels(), m.forest.global_cells(),
+        double(m.forest.global_cells()) / finest_cells(m));
   say("{} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} m in {} blocks of {} x {} x {}, {} threads", m.forest.size().cells[0],
       m.forest.size().cells[1], m.forest.size().cells[2], m.forest.shape().h.x, m.forest.shape().h.y, m.forest.shape().h.z,
       m.forest.global_blocks(), m.forest.shape().n[0], m.forest.shape().n[1], m.forest.shape().n[2], thread_count());
@@ -77,7 +87,7 @@ void open_model(Model& m, const Case& cs, Books& books) {
 int run_alone(const Case& cs, Model& m) {
   std::optional<BodyMotion> motion;
   if (!cs.fluid.body.empty()) {
-    const BlockShape& s = m.forest.shape();
+    const BlockShape& s = m.forest.finest_shape();
     double h = 1e300;
     for (int d = 0; d < 3; ++d)
       if (s.used[size_t(d)]) h = std::min(h, s.h[d]);
@@ -101,7 +111,7 @@ int run_alone(const Case& cs, Model& m) {
       const double dt = step(m, sweep, books, wanted, motion ? &*motion : nullptr, true, &loads);
       m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
       out.write_due(m, books);
-      out.tick(m, dt, sweep.active().size());
+      out.tick(m, dt, sweep.stepped());
     }
   } catch (const PhysicsError& e) {
     out.finish(m, books, "failed", e.what());
@@ -171,7 +181,7 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
       side.send(loads);
       motion.end(dt);
       out->write_due(m, books);
-      out->tick(m, dt, sweep->active().size());
+      out->tick(m, dt, sweep->stepped());
     }
   } catch (const PhysicsError& e) {
     if (out) out->finish(m, books, "failed", e.what());
@@ -205,13 +215,13 @@ void check(const Case& cs, const Comm& comm) {
   }
   double rate = 0;
   for (int d = 0; d < 3; ++d)
-    if (m.forest.shape().used[size_t(d)]) rate += fastest / m.forest.shape().h[d];
+    if (m.forest.shape().used[size_t(d)]) rate += fastest / m.forest.finest_shape().h[d];
   const double steps = rate > 0 ? cs.run.time.end * rate / cs.fluid.scheme.cfl : 0;
-  const double cells = double(m.forest.global_cells());
+  const double cells = finest_cells(m);
   constexpr double bytes_a_cell = 2 * 8 * Cons::count + 1, cells_a_second = 6e6;
   say("{}: the case is sound", cs.file);
-  say("about {:.0f} steps of {:.3g} s, {:.2f} GB, at most {:.1f} min on {} threads (blocks at rest cost nothing)", steps, cs.run.time.end / std::max(steps, 1.0),
-      1e-9 * cells * bytes_a_cell, steps * cells / (cells_a_second * thread_count()) / 60, thread_count());
+  say("about {:.0f} steps of {:.3g} s, {:.2f} GB, at most {:.1f} min on {} threads (blocks at rest cost nothing{})", steps, cs.run.time.end / std::max(steps, 1.0),
+      1e-9 * cells * bytes_a_cell, steps * cells / (cells_a_second * thread_count()) / 60, thread_count(), m.refine ? "; if all blocks were of the finest level" : "");
 }
 
 }  // namespace bw::cfd

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conserved state of all blocks: [block][variable][k][j][i], two copies of each block. A step writes the spare
+// The conserved state of all blocks: per block [variable][k][j][i], two copies of each block. A step writes the spare
 // copies of the blocks it changes and flips them at the end, so a step can be thrown away, and blocks at rest cost
 // nothing.
 #pragma once
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,30 +42,66 @@ struct Booked {
   }
 };
 
+/// Storage of blocks in pieces of one size, made in bunches and used again.
+class BlockPool {
+ public:
+  explicit BlockPool(size_t doubles) : pitch_((doubles + lanes + 7) / 8 * 8) {}  // packs may hang over the last row
+  double* take() {
+    if (free_.empty()) grow(16);
+    double* piece = free_.back();
+    free_.pop_back();
+    return piece;
+  }
+  void give(double* piece) { free_.push_back(piece); }
+  /// Makes room for `pieces` more at once, side by side.
+  void grow(size_t pieces) {
+    bunches_.emplace_back(pieces * pitch_, 0.0);
+    for (size_t i = pieces; i-- > 0;) free_.push_back(bunches_.back().data() + i * pitch_);
+  }
+
+ private:
+  size_t pitch_;
+  std::vector<Aligned<double>> bunches_;
+  std::vector<double*> free_;
+};
+
 class State {
  public:
-  explicit State(const Forest& forest)
-      : info(size_t(forest.local_blocks() + forest.ghost_blocks())),
-        booked(size_t(forest.local_blocks())),
-        cells_(size_t(forest.shape().cells())),
-        current_(size_t(forest.local_blocks()), 0) {
-    const size_t n = size_t(forest.local_blocks()) * block_size();
-    for (auto& copy : copies_) copy.assign(n + lanes, 0.0);  // packs may hang over the last row
-    ghosts_.assign(size_t(forest.ghost_blocks()) * block_size() + lanes, 0.0);
-  }
+  explicit State(const Forest& forest) : cells_(size_t(forest.shape().cells())), pool_(block_size()) { fit(forest); }
   size_t block_size() const { return cells_ * Cons::count; }
   /// One variable of a block, [k][j][i]; blocks from local_blocks() on are copies of other ranks'.
   const double* block(int b, int variable = 0) const {
     const size_t local = current_.size();
-    const double* base = size_t(b) < local ? copies_[current_[size_t(b)]].data() + size_t(b) * block_size()
-                                           : ghosts_.data() + (size_t(b) - local) * block_size();
+    const double* base = size_t(b) < local ? current_[size_t(b)] : ghosts_.data() + (size_t(b) - local) * block_size();
     return base + size_t(variable) * cells_;
   }
   double* block(int b, int variable = 0) { return const_cast<double*>(std::as_const(*this).block(b, variable)); }
   /// The copy that a step writes.
-  double* spare(int b) { return copies_[1 - current_[size_t(b)]].data() + size_t(b) * block_size(); }
-  void flip(int b) { current_[size_t(b)] ^= 1; }
+  double* spare(int b) { return spare_[size_t(b)]; }
+  void flip(int b) { std::swap(current_[size_t(b)], spare_[size_t(b)]); }
   double* ghosts() { return ghosts_.data(); }
+
+  /// As many blocks as the forest has now: the first keep what they hold, new ones hold anything.
+  void fit(const Forest& forest) {
+    const size_t n = size_t(forest.local_blocks());
+    for (; current_.size() > n; current_.pop_back()) pool_.give(current_.back());
+    for (; spare_.size() > n; spare_.pop_back()) pool_.give(spare_.back());
+    if (current_.empty()) pool_.grow(2 * n);
+    while (current_.size() < n) current_.push_back(pool_.take());
+    while (spare_.size() < n) spare_.push_back(pool_.take());
+    ghosts_.assign(size_t(forest.ghost_blocks()) * block_size() + lanes, 0.0);
+    info.resize(n + size_t(forest.ghost_blocks()));
+    booked.resize(n);
+  }
+  /// A piece of storage that is no block's yet; arrange() makes it one.
+  double* take() { return pool_.take(); }
+  /// The blocks' storage from now on, new pieces or those of old blocks; what no block has any more goes back.
+  void arrange(const std::vector<double*>& blocks) {
+    const std::set<double*> kept(blocks.begin(), blocks.end());
+    for (double* old : current_)
+      if (!kept.contains(old)) pool_.give(old);
+    current_ = blocks;
+  }
 
   double t = 0;  ///< s
   int64_t step = 0;
@@ -73,8 +110,9 @@ class State {
 
  private:
   size_t cells_;
-  Aligned<double> copies_[2], ghosts_;
-  std::vector<uint8_t> current_;  ///< which of the two copies is the state
+  BlockPool pool_;
+  std::vector<double*> current_, spare_;  ///< [local]
+  Aligned<double> ghosts_;
 };
 
 }  // namespace bw::cfd

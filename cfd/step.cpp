@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cfd/adapt.h"
 #include "common/app/timers.h"
 
 namespace bw::cfd {
@@ -45,7 +46,7 @@ bool advance_flow(Model& m, Sweep& sweep, double dt) {
 [[noreturn]] void fail(const Model& m, const Sweep& sweep, double dt) {
   const BadCell bad = sweep.first_bad();
   if (bad.block < 0) throw PhysicsError(fmt::format("another rank of the fluid has a state that can't be used at t = {:.9g} s", m.state.t));
-  const BlockShape& s = m.forest.shape();
+  const BlockShape& s = m.forest.shape(bad.block);
   const Index3 first = m.forest.first_cell(bad.block);
   const int i = bad.cell % s.n[0], j = bad.cell / s.n[0] % s.n[1], k = bad.cell / (s.n[0] * s.n[1]);
   const Vec3 x = m.forest.lower(bad.block) + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
@@ -90,6 +91,7 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
     }
     follow_walls(m, sweep, books);
   }
+  adapt(m, sweep, books);
   return dt;
 }
 

@@ -2,12 +2,11 @@
 #include "cfd/sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "cfd/embed/refill.h"
+#include "common/app/error.h"
 #include "common/parallel/loop.h"
 
 namespace bw::cfd {
@@ -26,16 +25,8 @@ bool usable(const Medium& medium, const double (&U)[Cons::count]) {
 }  // namespace
 
 Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
-    : forest_(forest),
-      setup_(setup),
-      walls_(walls),
-      result_(size_t(forest.local_blocks())),
-      gas_before_(size_t(forest.local_blocks()), 0),
-      pending_(size_t(forest.local_blocks())),
-      marks_(size_t(forest.local_blocks())),
-      first_order_(size_t(forest.local_blocks())),
-      near_(size_t(forest.local_blocks()), far),
-      wall_(size_t(forest.local_blocks())) {
+    : forest_(forest), setup_(setup), walls_(walls) {
+  fit();
   spaces_.resize(size_t(thread_count()));
   for (Space& space : spaces_) {
     space.patch = Patch(forest.shape());
@@ -43,27 +34,30 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     space.gas.emplace(forest.shape());
     space.mixed.emplace(forest.shape());
     if (!walls_) continue;
-    space.cuts = PatchCuts(forest.shape());
+    space.cuts = PatchCuts(forest.finest_shape());
     for (int m = 0; m < 2; ++m)
-      if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.shape());
-    space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.shape());
+      if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.finest_shape());
+    space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.finest_shape());
   }
 }
 
-void Sweep::exchange(State& s) const {
-  if (forest_.comm().size() == 1) return;
-  forest_.exchange(
-      s.block_size() * sizeof(double), [&](int b) { return s.block(b); }, s.ghosts());
-  forest_.exchange(
-      sizeof(BlockInfo), [&](int b) { return &s.info[size_t(b)]; }, &s.info[size_t(forest_.local_blocks())]);
+void Sweep::fit() {
+  const size_t n = size_t(forest_.local_blocks());
+  active_.clear();
+  result_.assign(n, {});
+  gas_before_.assign(n, 0);
+  pending_.assign(n, {});
+  marks_.assign(n, {});
+  first_order_.assign(n, {});
+  near_.assign(n, far);
+  wall_.assign(n, {});
+  fluxes_.fit(forest_);
 }
 
 bool Sweep::burns(int block) const {
   if (!setup_.burn || !setup_.burn->active(t_, t_ + dt_)) return false;
   const Vec3 lower = forest_.lower(block);
-  const BlockShape& s = forest_.shape();
-  const Vec3 size{s.n[0] * s.h.x, s.n[1] * s.h.y, s.n[2] * s.h.z};
-  return setup_.burn->phase(lower, lower + size, t_, t_ + dt_) == Burn::Phase::during;
+  return setup_.burn->phase(lower, lower + forest_.extent(block), t_, t_ + dt_) == Burn::Phase::during;
 }
 
 void Sweep::select(const State& s, double dt) {
@@ -73,11 +67,16 @@ void Sweep::select(const State& s, double dt) {
   for (int b = 0; b < forest_.local_blocks(); ++b) {
     pending_[size_t(b)] = Booked{};
     wall_[size_t(b)] = {};
+    fluxes_.forget(b);
     if (walls_) {
-      const Index3 first = forest_.first_cell(b), n = forest_.shape().n;
-      near_[size_t(b)] = !walls_->near(first)                                                                    ? far
-                         : walls_->map().all_blocked(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]}) ? metal
-                                                                                                                 : near;
+      const Index3 first = forest_.first_finest(b), n = forest_.finest_cells(b),
+                   end{first[0] + n[0], first[1] + n[1], first[2] + n[2]};
+      const bool finest = forest_.level(b) == forest_.levels();
+      // a coarser block is in metal or away from it (cfd/amr/criteria.h)
+      near_[size_t(b)] = finest && !walls_->near(first)                                          ? far
+                         : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end) ? metal
+                         : finest                                                                ? near
+                                                                                                 : far;
       if (near_[size_t(b)] == near) active_.push_back(b);
       if (near_[size_t(b)] != far) continue;
     }
@@ -91,7 +90,7 @@ void Sweep::select(const State& s, double dt) {
 
 /// A block at rest still leans on the sides of the domain.
 void Sweep::rest_at_sides(const State& s, int block, Booked& booked) const {
-  const BlockShape& shape = forest_.shape();
+  const BlockShape& shape = forest_.shape(block);
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       if (!shape.used[d] || !forest_.at_side(block, d, upper)) continue;
@@ -105,12 +104,12 @@ void Sweep::rest_at_sides(const State& s, int block, Booked& booked) const {
 
 void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   const Gather gather(forest_, s, setup_.boundary, setup_.medium);
-  const BlockShape& shape = forest_.shape();
+  const BlockShape& shape = forest_.shape(block);
   Patch& patch = space.patch;
   BlockChange& change = space.change;
   Booked& booked = pending_[size_t(block)];
   booked = Booked{};
-  gather.fill(block, patch);
+  gather.fill(block, patch, space.ghosts);
   if (first_order)
     gather.fill_order(
         block,
@@ -128,12 +127,15 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper)
       if (shape.used[size_t(d)] && forest_.at_side(block, d, upper)) change.book_sides |= 1u << (2 * d + upper);
+  change.keep_sides = fluxes_.sides(block);
+  change.make_sides();
   const int m = patch.material;
   if (m != 0 && setup_.medium.is_gas[m - 1])
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
     space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);
   if (near_[size_t(block)] == near) in.blocked = meet_walls(block, space);
+  if (change.keep_sides) match_levels(block, space);
   in.others_hold = m != 0 && gas_before_[size_t(block)] == m;
   marks_[size_t(block)].clear();
   result_[size_t(block)] =
@@ -142,6 +144,14 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     for (int q = 0; q < Cons::count; ++q) booked.side[side][q] += change.side[side][q] * shape.cell_volume();
   booked.scaled_cells += change.scaled_cells;
   booked.updates += shape.cells();
+}
+
+void Sweep::match_levels(int block, Space& space) {
+  fluxes_.record(block, space.change);
+  std::vector<int> rows;
+  for (int q = 0; q < (is_gas(space.patch) ? int(GasCons::count) : int(Cons::count)); ++q)
+    rows.push_back(is_gas(space.patch) ? setup_.medium.gas[space.patch.material - 1].cons_row(q) : q);
+  fluxes_.correct(block, space.patch, rows, space.change);
 }
 
 const uint8_t* Sweep::meet_walls(int block, Space& space) {
@@ -177,9 +187,10 @@ void Sweep::load_probes(int block, Space& space, double dt) {
 void Sweep::measure_loads(const State& s) {
   const Gather gather(forest_, s, setup_.boundary, setup_.medium);
   parallel_for_dynamic(forest_.local_blocks(), spaces_, [&](int64_t b, Space& space) {
+    if (forest_.level(int(b)) != forest_.levels()) return;
     const Index3 first = forest_.first_cell(int(b));
     if (const Walls::Range range = walls_->probes_of(first); range.first == range.last) return;
-    gather.fill(int(b), space.patch);
+    gather.fill(int(b), space.patch, space.ghosts);
     space.cuts.gather(walls_->map(), walls_->rules(), first);
     cut_scheme(space).begin(space.patch, space.cuts, 0);
     load_probes(int(b), space, 0);
@@ -197,21 +208,19 @@ WallExchange Sweep::wall_exchange() const {
 void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
   const Changes& changes = walls_->changes();
   if (changes.covered.empty() && changes.fresh.empty()) return;
-  const BlockShape& shape = forest_.shape();
-  std::map<std::array<int, 3>, int> block_at;  // other ranks' too
-  for (int b = 0; b < forest_.local_blocks() + forest_.ghost_blocks(); ++b) block_at.emplace(forest_.place(b), b);
+  const BlockShape& shape = forest_.finest_shape();
   struct Place {
     int block;
     size_t cell;
   };
   const auto place_of = [&](const Index3& c) {
-    const std::array<int, 3> at{c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]};
-    const int b = block_at.at(at);
-    return Place{b, shape.at(c[2] - at[2] * shape.n[2], c[1] - at[1] * shape.n[1], c[0] - at[0] * shape.n[0])};
+    const Forest::Cell at = forest_.find_finest(c);
+    BW_CHECK(at.block >= 0 && forest_.level(at.block) == forest_.levels());
+    return Place{at.block, shape.at(at.k, at.j, at.i)};
   };
   const auto is_local = [&](const Index3& c) {
-    const auto found = block_at.find({c[0] / shape.n[0], c[1] / shape.n[1], c[2] / shape.n[2]});
-    return found != block_at.end() && found->second < forest_.local_blocks();
+    const int b = forest_.find_finest(c).block;
+    return b >= 0 && b < forest_.local_blocks();
   };
   std::set<int> touched;
   const auto take = [&](const Index3& c) {
@@ -265,16 +274,24 @@ void Sweep::note(const double (&U)[Cons::count], BlockInfo& info) const {
   double W[Prim::stored];
   std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
   double rate = 0;
+  const BlockShape& s = forest_.finest_shape();
   for (int d = 0; d < 3; ++d)
-    if (forest_.shape().used[size_t(d)]) rate += (std::abs(W[Prim::v + d]) + W[Prim::c]) / forest_.shape().h[d];
+    if (s.used[size_t(d)]) rate += (std::abs(W[Prim::v + d]) + W[Prim::c]) / s.h[d];
   info.rate = std::max(info.rate, rate);
   info.at_rest = 0;
   if (U[Cons::alpha1] != (info.material == 1 ? 1.0 : 0.0)) info.material = 0;
 }
 
 void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_order) {
-  parallel_for_dynamic(int64_t(blocks.size()), spaces_,
-                       [&](int64_t i, Space& space) { one_block(s, blocks[size_t(i)], first_order, space); });
+  std::vector<int> of_level;
+  for (int level = forest_.levels(); level >= 0; --level) {  // finer ones leave their fluxes for coarser ones
+    of_level.clear();
+    for (int b : blocks)
+      if (forest_.level(b) == level) of_level.push_back(b);
+    parallel_for_dynamic(int64_t(of_level.size()), spaces_,
+                         [&](int64_t i, Space& space) { one_block(s, of_level[size_t(i)], first_order, space); });
+    if (level > 0) fluxes_.exchange(level);
+  }
   count_bad();
 }
 
@@ -319,18 +336,23 @@ std::vector<int> Sweep::around_marked() const {
     return std::find(from, from + ptrdiff_t(cells), 1) != from + ptrdiff_t(cells);
   };
   std::vector<int> blocks;
+  std::vector<uint8_t> again(size_t(forest_.local_blocks()), 0);
   for (int b : active_) {
-    bool near = false;
-    for (int o = 0; o < 27 && !near; ++o) {
-      const int other = forest_.neighbour(b, {o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1});
-      near = other >= 0 && marked(other);
-    }
-    if (near) blocks.push_back(b);
+    bool near = marked(b);
+    for (int other : forest_.around(b)) near = near || marked(other);
+    again[size_t(b)] = near;
+  }
+  for (int b : active_) {
+    // fluxes of finer neighbours may change: all that may step again are asked, other ranks' too
+    bool beside = again[size_t(b)];
+    for (int other : forest_.around(b)) beside = beside || forest_.level(other) > forest_.level(b);
+    if (beside) blocks.push_back(b);
   }
   return blocks;
 }
 
 void Sweep::commit(State& s) {
+  stepped_ = active_.size();
   for (int b : active_) {
     s.flip(b);
     s.info[size_t(b)] = result_[size_t(b)].info;
@@ -354,7 +376,7 @@ double Sweep::max_rate(const State& s) const {
   if (const auto& burn = setup_.burn; burn && rate > 0 && burn->active(s.t, s.t + 1 / rate)) {
     double front = 0;
     for (int d = 0; d < 3; ++d)
-      if (forest_.shape().used[d]) front += burn->c_CJ / forest_.shape().h[d];
+      if (forest_.shape().used[d]) front += burn->c_CJ / forest_.finest_shape().h[d];
     rate = std::max(rate, front + (burn->D - burn->c_CJ) / burn->h);
   }
   return rate;

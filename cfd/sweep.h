@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "cfd/amr/flux_register.h"
 #include "cfd/amr/gather.h"
 #include "cfd/amr/update.h"
 #include "cfd/embed/walls.h"
@@ -37,8 +38,10 @@ class Sweep {
   /// walls: nullptr if there are none; probes get their loads in advance().
   Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls);
 
+  /// The forest has other blocks now.
+  void fit();
   /// Copies of other ranks' blocks and their info: before select() and advance().
-  void exchange(State& s) const;
+  void exchange(State& s) const { exchange_state(forest_, s); }
   /// Chooses the blocks of a step of size dt.
   void select(const State& s, double dt);
   /// Steps the chosen blocks.
@@ -54,6 +57,8 @@ class Sweep {
   /// Largest sum_d (|v_d| + c)/h_d over all ranks, with what a burning front will need until t + its answer.
   double max_rate(const State& s) const;
   const std::vector<int>& active() const { return active_; }
+  /// How many blocks the last step did.
+  size_t stepped() const { return stepped_; }
   /// What the fluid gave to the walls in the step, all ranks.
   WallExchange wall_exchange() const;
   /// Loads of all probes from the state as it is (advance() makes those of mid-step).
@@ -65,6 +70,7 @@ class Sweep {
  private:
   struct Space {
     Patch patch;
+    LevelGhosts ghosts;
     BlockChange change;
     std::optional<BlockKernel<GasFlow, Pack>> gas;
     std::optional<BlockKernel<MixedFlow, Pack>> mixed;
@@ -83,6 +89,8 @@ class Sweep {
   void load_probes(int block, Space& space, double dt);
   void run_blocks(State& s, const std::vector<int>& blocks, bool first_order);
   void one_block(State& s, int block, bool first_order, Space& space);
+  /// Replaces fluxes to finer neighbours by theirs, keeps those to coarser ones.
+  void match_levels(int block, Space& space);
   void rest_at_sides(const State& s, int block, Booked& booked) const;
   std::vector<int> around_marked() const;
   bool burns(int block) const;
@@ -93,7 +101,9 @@ class Sweep {
   const FlowSetup& setup_;
   Walls* walls_;
   double t_ = 0, dt_ = 0;
+  FluxRegister fluxes_;
   std::vector<int> active_;
+  size_t stepped_ = 0;
   std::vector<UpdateResult> result_;  ///< [local block]
   std::vector<int8_t> gas_before_;    ///< [local block] 1 or 2: the gas that its last step was done for; 0: not one gas
   std::vector<Booked> pending_;       ///< [local block] of this step

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfd/amr/forest.h"
 
-#include <p8est_bits.h>
-#include <p8est_extended.h>
-#include <p8est_ghost.h>
-
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "common/app/error.h"
 
@@ -23,30 +19,46 @@ double block_cost(int n, bool x) {
   return width * ghosts * cache * threads;
 }
 
-struct TreePlace {
-  int x, y, z;
-};
-TreePlace place_of_tree(const p8est_connectivity_t* c, p4est_topidx_t tree) {
-  const double* corner = c->vertices + 3 * c->tree_to_vertex[size_t(tree) * P8EST_CHILDREN];
-  return {int(std::lround(corner[0])), int(std::lround(corner[1])), int(std::lround(corner[2]))};
+uint64_t key_of(const Leaf& leaf) {
+  return uint64_t(leaf.level) << 57 | uint64_t(leaf.place[2]) << 38 | uint64_t(leaf.place[1]) << 19 |
+         uint64_t(leaf.place[0]);
 }
 
-/// libsc and p4est want to be told once per process, and to leave signals alone. Collective over comm: the world may hold another
-/// program, which would never come.
-void start_p4est(const Comm& comm) {
-  static const bool started = [&] {
-    sc_init(comm.raw(), 0, 0, nullptr, SC_LP_ERROR);
-    p4est_init(nullptr, SC_LP_ERROR);
-    return true;
-  }();
-  (void)started;
+Leaf parent_of(Leaf leaf) {
+  --leaf.level;
+  for (int& p : leaf.place) p >>= 1;
+  return leaf;
+}
+
+std::vector<BlockShape> shapes_of(const GridSize& size) {
+  BlockShape s;
+  s.n = size.block;
+  for (size_t d = 0; d < 3; ++d)
+    if (s.n[d] == 0) s.n[d] = (size.levels > 0 ? choose_block(size.cells, size.levels) : choose_block(size.cells))[d];
+  for (int d = 0; d < 3; ++d) {
+    BW_CHECK(size.cells[size_t(d)] > 0 && size.upper[d] > size.lower[d]);
+    BW_CHECK(s.n[size_t(d)] > 0 && size.cells[size_t(d)] % s.n[size_t(d)] == 0);
+    s.used[size_t(d)] = size.cells[size_t(d)] > 1;
+    s.h[d] = (size.upper[d] - size.lower[d]) / size.cells[size_t(d)];
+  }
+  std::vector<BlockShape> shapes{s};
+  for (int l = 0; l < size.levels; ++l) {
+    for (int d = 0; d < 3; ++d)
+      if (s.used[size_t(d)]) s.h[d] *= 0.5;
+    shapes.push_back(s);
+  }
+  return shapes;
+}
+
+std::array<int, 3> blocks_of(const GridSize& size, const BlockShape& s) {
+  return {size.cells[0] / s.n[0], size.cells[1] / s.n[1], size.cells[2] / s.n[2]};
 }
 
 }  // namespace
 
 std::array<int, 3> choose_block(const std::array<int, 3>& cells) {
   std::array<int, 3> n;
-  for (int d = 0; d < 3; ++d) {
+  for (size_t d = 0; d < 3; ++d) {
     n[d] = cells[d];
     for (int m = 2; m < cells[d]; ++m)
       if (cells[d] % m == 0 && block_cost(m, d == 0) < block_cost(n[d], d == 0)) n[d] = m;
@@ -54,99 +66,194 @@ std::array<int, 3> choose_block(const std::array<int, 3>& cells) {
   return n;
 }
 
-struct Forest::Trees {
-  p8est_connectivity_t* connectivity = nullptr;
-  p8est_t* forest = nullptr;
-  p8est_ghost_t* ghost = nullptr;
-  ~Trees() {
-    if (ghost) p8est_ghost_destroy(ghost);
-    if (forest) p8est_destroy(forest);
-    if (connectivity) p8est_connectivity_destroy(connectivity);
+std::array<int, 3> choose_block(const std::array<int, 3>& cells, int levels) {
+  std::array<int, 3> n{0, 0, 0};
+  for (size_t d = 0; d < 3; ++d) {
+    if (cells[d] == 1) n[d] = 1;
+    for (int m = 8; m <= 16 && cells[d] > 1; m += 2)
+      if (cells[d] % m == 0 && m % (1 << levels) == 0 &&
+          (n[d] == 0 || block_cost(m, d == 0) < block_cost(n[d], d == 0)))
+        n[d] = m;
   }
-};
-
-Forest::Forest(const Comm& comm, const GridSize& size) : comm_(comm), size_(size), trees_(new Trees) {
-  shape_.n = choose_block(size.cells);
-  for (int d = 0; d < 3; ++d) {
-    BW_CHECK(size.cells[d] > 0 && size.upper[d] > size.lower[d]);
-    shape_.used[d] = size.cells[d] > 1;
-    shape_.h[d] = (size.upper[d] - size.lower[d]) / size.cells[d];
-    blocks_[d] = size.cells[d] / shape_.n[d];
-  }
-  start_p4est(comm);
-  trees_->connectivity = p8est_connectivity_new_brick(blocks_[0], blocks_[1], blocks_[2], size.periodic[0],
-                                                      size.periodic[1], size.periodic[2]);
-  trees_->forest = p8est_new_ext(comm.raw(), trees_->connectivity, 0, 0, 1, 0, nullptr, nullptr);
-  const p8est_t* f = trees_->forest;
-  local_ = f->local_num_quadrants;
-  first_global_ = f->global_first_quadrant[comm.rank()];
-  for (p4est_topidx_t t = f->first_local_tree; t <= f->last_local_tree && local_ > 0; ++t) {
-    const TreePlace p = place_of_tree(trees_->connectivity, t);
-    place_.push_back({p.x, p.y, p.z});
-  }
-  BW_CHECK(int(place_.size()) == local_);
-  if (comm.size() > 1) {
-    trees_->ghost = p8est_ghost_new(trees_->forest, P8EST_CONNECT_FULL);
-    const p8est_ghost_t* g = trees_->ghost;
-    for (size_t i = 0; i < g->ghosts.elem_count; ++i) {
-      const auto* q = p8est_quadrant_array_index(const_cast<sc_array_t*>(&g->ghosts), i);
-      const TreePlace p = place_of_tree(trees_->connectivity, q->p.piggy3.which_tree);
-      place_.push_back({p.x, p.y, p.z});
-    }
-    for (size_t i = 0; i < g->mirrors.elem_count; ++i)
-      mirrors_.push_back(p8est_quadrant_array_index(const_cast<sc_array_t*>(&g->mirrors), i)->p.piggy3.local_num);
-  }
-  make_neighbours();
+  return n;
 }
 
-Forest::~Forest() = default;
+Forest::Forest(const Comm& comm, const GridSize& size)
+    : comm_(comm),
+      size_(size),
+      blocks_(blocks_of(size, shapes_of(size).front())),
+      shapes_(shapes_of(size)),
+      trees_(comm, blocks_, size.periodic, shapes_.front().used) {
+  make_tables();
+}
 
-void Forest::make_neighbours() {
-  std::map<std::array<int, 3>, int> at;
-  for (size_t b = 0; b < place_.size(); ++b) at.emplace(place_[b], int(b));
-  neighbours_.assign(size_t(local_) * 27, -1);
-  for (int b = 0; b < local_; ++b)
+int Forest::find_leaf(const Leaf& leaf) const {
+  const auto found = number_.find(key_of(leaf));
+  return found == number_.end() ? -1 : found->second;
+}
+
+void Forest::make_tables() {
+  leaf_ = trees_.leaves();
+  local_ = int(leaf_.size());
+  leaf_.insert(leaf_.end(), trees_.ghosts().begin(), trees_.ghosts().end());
+  number_.clear();
+  number_.reserve(2 * leaf_.size());
+  for (size_t b = 0; b < leaf_.size(); ++b)
+    if (leaf_[b].level >= 0) number_.emplace(key_of(leaf_[b]), int(b));
+  neighbours_.assign(size_t(local_) * 27, outside);
+  jumps_.clear();
+  at_jump_.assign(size_t(local_), 0);
+  around_.clear();
+  first_around_.assign(1, 0);
+  for (int b = 0; b < local_; ++b) {
+    for (int o = 0; o < 27; ++o)
+      neighbours_[size_t(b) * 27 + size_t(o)] = connect(b, {o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1});
+    std::vector<int> near;
     for (int o = 0; o < 27; ++o) {
-      const int offset[3] = {o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
-      std::array<int, 3> p = place_[size_t(b)];
-      bool inside = true;
-      for (int d = 0; d < 3; ++d) {
-        p[d] += offset[d];
-        if (size_.periodic[d]) p[d] = (p[d] + blocks_[d]) % blocks_[d];
-        inside = inside && p[d] >= 0 && p[d] < blocks_[d];
-      }
-      if (!inside) continue;
-      const auto found = at.find(p);
-      BW_CHECK(found != at.end());
-      neighbours_[size_t(b) * 27 + size_t(o)] = found->second;
+      const int n = neighbours_[size_t(b) * 27 + size_t(o)];
+      if (n >= 0) near.push_back(n);
+      if (n >= outside) continue;
+      at_jump_[size_t(b)] = 1;
+      for (int c : jump(n).block)
+        if (c >= 0) near.push_back(c);
     }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (int n : near)
+      if (n != b) around_.push_back(n);
+    first_around_.push_back(around_.size());
+  }
+}
+
+/// What neighbour() says.
+int Forest::connect(int block, const std::array<int, 3>& offset) {
+  Leaf at = leaf_[size_t(block)];
+  for (size_t d = 0; d < 3; ++d) {
+    if (offset[d] != 0 && !shape().used[d]) return outside;
+    const int end = shape().used[d] ? blocks_[d] << at.level : 1;
+    at.place[d] += offset[d];
+    if (size_.periodic[d]) at.place[d] = (at.place[d] + end) % end;
+    if (at.place[d] < 0 || at.place[d] >= end) return outside;
+  }
+  if (const int same = find_leaf(at); same >= 0) return same;
+  LevelJump jump;
+  if (const int coarser = at.level > 0 ? find_leaf(parent_of(at)) : -1; coarser >= 0) {
+    jump.block[0] = coarser;
+  } else {
+    jump.finer = true;
+    bool any = false;
+    for (int c = 0; c < 8; ++c) {
+      Leaf child{at.level + 1, {}};
+      bool touches = true;
+      for (size_t d = 0; d < 3; ++d) {
+        const int upper = c >> d & 1;
+        child.place[d] = shape().used[d] ? 2 * at.place[d] + upper : 0;
+        touches = touches && (shape().used[d] ? offset[d] == 0 || upper == (offset[d] < 0) : upper == 0);
+      }
+      if (!touches) continue;
+      jump.block[size_t(c)] = find_leaf(child);
+      BW_CHECK(jump.block[size_t(c)] >= 0);
+      any = true;
+    }
+    BW_CHECK(any);
+  }
+  jumps_.push_back(jump);
+  return -1 - int(jumps_.size());
+}
+
+bool Forest::at_side(int block, int d, bool upper) const {
+  const size_t e = size_t(d);
+  const int last = (shape().used[e] ? blocks_[e] << level(block) : 1) - 1;
+  return !size_.periodic[e] && place(block)[e] == (upper ? last : 0);
+}
+
+std::array<int, 3> Forest::cells_of_level(int level) const {
+  std::array<int, 3> cells = size_.cells;
+  for (size_t d = 0; d < 3; ++d)
+    if (shape().used[d]) cells[d] <<= level;
+  return cells;
 }
 
 std::array<int, 3> Forest::first_cell(int block) const {
   const auto& p = place(block);
-  return {p[0] * shape_.n[0], p[1] * shape_.n[1], p[2] * shape_.n[2]};
+  return {p[0] * shape().n[0], p[1] * shape().n[1], p[2] * shape().n[2]};
+}
+
+std::array<int, 3> Forest::first_finest(int block) const {
+  std::array<int, 3> c = first_cell(block);
+  for (size_t d = 0; d < 3; ++d)
+    if (shape().used[d]) c[d] <<= levels() - level(block);
+  return c;
+}
+
+std::array<int, 3> Forest::finest_cells(int block) const {
+  std::array<int, 3> n = shape().n;
+  for (size_t d = 0; d < 3; ++d)
+    if (shape().used[d]) n[d] <<= levels() - level(block);
+  return n;
 }
 
 Vec3 Forest::lower(int block) const {
   const auto c = first_cell(block);
-  return {size_.lower.x + c[0] * shape_.h.x, size_.lower.y + c[1] * shape_.h.y, size_.lower.z + c[2] * shape_.h.z};
+  const Vec3& h = shape(block).h;
+  return {size_.lower.x + c[0] * h.x, size_.lower.y + c[1] * h.y, size_.lower.z + c[2] * h.z};
+}
+
+Vec3 Forest::extent(int block) const {
+  const BlockShape& s = shape(block);
+  return {s.n[0] * s.h.x, s.n[1] * s.h.y, s.n[2] * s.h.z};
 }
 
 Forest::Cell Forest::find(const Vec3& x) const {
-  int cell[3], block[3];
+  std::array<int, 3> cell;
+  const std::array<int, 3> end = cells_of_level(levels());
   for (int d = 0; d < 3; ++d) {
     if (x[d] < size_.lower[d] || x[d] > size_.upper[d]) return {};
-    cell[d] = std::min(int((x[d] - size_.lower[d]) / shape_.h[d]), size_.cells[d] - 1);
-    block[d] = cell[d] / shape_.n[d];
+    cell[size_t(d)] = std::min(int((x[d] - size_.lower[d]) / finest_shape().h[d]), end[size_t(d)] - 1);
   }
-  for (int b = 0; b < local_; ++b)
-    if (place_[size_t(b)] == std::array<int, 3>{block[0], block[1], block[2]})
-      return {b, cell[0] % shape_.n[0], cell[1] % shape_.n[1], cell[2] % shape_.n[2]};
+  const Cell found = find_finest(cell);
+  return found.block < local_ ? found : Cell{};
+}
+
+Forest::Cell Forest::find_finest(const std::array<int, 3>& cell) const {
+  std::array<int, 3> c = cell;
+  for (int l = levels(); l >= 0; --l) {
+    const auto& n = shape().n;
+    if (const int b = find_leaf({l, {c[0] / n[0], c[1] / n[1], c[2] / n[2]}}); b >= 0)
+      return {b, c[0] % n[0], c[1] % n[1], c[2] % n[2]};
+    for (size_t d = 0; d < 3; ++d)
+      if (shape().used[d]) c[d] >>= 1;
+  }
   return {};
 }
 
-void Forest::exchange_bytes(size_t bytes, std::vector<void*>& mirror, void* ghosts) const {
-  p8est_ghost_exchange_custom(trees_->forest, trees_->ghost, bytes, mirror.data(), ghosts);
+std::vector<Origin> Forest::adapt(const std::vector<int8_t>& wish) {
+  trees_.adapt(wish);
+  std::vector<Origin> origins;
+  for (const Leaf& leaf : trees_.leaves()) {
+    if (const int same = find_leaf(leaf); same >= 0 && same < local_) {
+      origins.push_back({0, same});
+    } else if (const int parent = leaf.level > 0 ? find_leaf(parent_of(leaf)) : -1; parent >= 0 && parent < local_) {
+      int child = 0;
+      for (size_t d = 3; d-- > 0;)
+        if (shape().used[d]) child = 2 * child + (leaf.place[d] & 1);
+      origins.push_back({1, parent, child});
+    } else {
+      Leaf child{leaf.level + 1, leaf.place};
+      for (size_t d = 0; d < 3; ++d)
+        if (shape().used[d]) child.place[d] *= 2;
+      const int first = find_leaf(child);
+      BW_CHECK(first >= 0 && first < local_);
+      origins.push_back({-1, first});
+    }
+  }
+  return origins;
+}
+
+bool Forest::settle() {
+  const bool moved = trees_.partition();
+  make_tables();
+  return moved;
 }
 
 }  // namespace bw::cfd

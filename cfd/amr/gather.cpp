@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cfd/amr/levels.h"
 #include "cfd/scheme/lane.h"
 
 namespace bw::cfd {
@@ -11,6 +12,14 @@ namespace bw::cfd {
 namespace {
 int material_of(double alpha1) { return alpha1 == 1.0 ? 1 : alpha1 == 0.0 ? 2 : 0; }
 }  // namespace
+
+void exchange_state(const Forest& forest, State& s) {
+  if (forest.comm().size() == 1) return;
+  forest.exchange(
+      s.block_size() * sizeof(double), [&](int b) { return s.block(b); }, s.ghosts());
+  forest.exchange(
+      sizeof(BlockInfo), [&](int b) { return &s.info[size_t(b)]; }, s.info.data() + forest.local_blocks());
+}
 
 GhostSource Gather::source(int block, int d, int index) const {
   const int n = forest_.shape().n[d];
@@ -34,12 +43,8 @@ int Gather::material(int block) const {
   const BlockShape& s = forest_.shape();
   const int m = state_.info[size_t(block)].material;
   if (m == 0) return 0;
-  for (int o = 0; o < 27; ++o) {
-    const std::array<int, 3> d{o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
-    if ((d[0] && !s.used[0]) || (d[1] && !s.used[1]) || (d[2] && !s.used[2])) continue;
-    const int b = forest_.neighbour(block, d);
-    if (b >= 0 && state_.info[size_t(b)].material != m) return 0;
-  }
+  for (int b : forest_.around(block))
+    if (state_.info[size_t(b)].material != m) return 0;
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];
@@ -54,11 +59,7 @@ bool Gather::quiet(int block) const {
   const BlockShape& s = forest_.shape();
   const BlockInfo& mine = state_.info[size_t(block)];
   if (!mine.at_rest) return false;
-  for (int o = 0; o < 27; ++o) {
-    const std::array<int, 3> d{o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
-    if ((d[0] && !s.used[0]) || (d[1] && !s.used[1]) || (d[2] && !s.used[2])) continue;
-    const int b = forest_.neighbour(block, d);
-    if (b < 0) continue;
+  for (int b : forest_.around(block)) {
     const BlockInfo& other = state_.info[size_t(b)];
     if (!other.at_rest || !std::equal(mine.U, mine.U + Cons::count, other.U)) return false;
   }
@@ -73,11 +74,16 @@ bool Gather::quiet(int block) const {
 }
 
 template <int n_U, int n_W, class Convert>
-void Gather::fill_rows(int block, Patch& patch, const int (&cons)[n_U], const int (&prim)[n_W],
-                       const Convert& convert) const {
+void Gather::fill_rows(int block, Patch& patch, const LevelGhosts& space, const int (&cons)[n_U],
+                       const int (&prim)[n_W], const Convert& convert) const {
   constexpr int w = Pack::size;
   const BlockShape& s = forest_.shape();
   const int g = s.ghost(0), n = s.n[0];
+  const size_t variable = size_t(s.cells());
+  const auto cells = [&](const std::array<int, 3>& offset) {
+    const int b = forest_.neighbour(block, offset);
+    return b >= 0 ? state_.block(b) : space.cells(offset);
+  };
   GhostSource ends[2 * ghost_layers];
   for (int e = 0; e < 2 * g; ++e) ends[e] = source(block, 0, e < g ? e - g : n + e - g);
   for (int k = -s.ghost(2); k < s.n[2] + s.ghost(2); ++k) {
@@ -86,12 +92,12 @@ void Gather::fill_rows(int block, Patch& patch, const int (&cons)[n_U], const in
       const GhostSource sj = source(block, 1, j);
       const double* constant = sk.constant ? sk.constant : sj.constant;
       const size_t row = s.at(sk.index, sj.index, 0);
-      const int centre = forest_.neighbour(block, {0, sj.offset, sk.offset});
+      const double* const centre = constant ? nullptr : cells({0, sj.offset, sk.offset}) + row;
       const double* from[n_U];
       bool reversed[n_U];
       double* out[n_W];
       for (int q = 0; q < n_U; ++q) {
-        from[q] = constant ? nullptr : state_.block(centre, cons[q]) + row;
+        from[q] = constant ? nullptr : centre + size_t(cons[q]) * variable;
         reversed[q] = !constant && ((cons[q] == Cons::mom_y && sj.mirror) || (cons[q] == Cons::mom_z && sk.mirror));
       }
       for (int q = 0; q < n_W; ++q) out[q] = patch.row(prim[q], k, j);
@@ -108,9 +114,10 @@ void Gather::fill_rows(int block, Patch& patch, const int (&cons)[n_U], const in
       double end_U[n_U][2 * ghost_layers + w], end_W[n_W][2 * ghost_layers + w];
       for (int e = 0; e < 2 * g; ++e) {
         const double* fixed = constant ? constant : ends[e].constant;
-        const int b = fixed ? centre : forest_.neighbour(block, {ends[e].offset, sj.offset, sk.offset});
+        const double* base =
+            fixed ? nullptr : cells({ends[e].offset, sj.offset, sk.offset}) + row + size_t(ends[e].index);
         for (int q = 0; q < n_U; ++q) {
-          const double u = fixed ? fixed[cons[q]] : state_.block(b, cons[q])[row + size_t(ends[e].index)];
+          const double u = fixed ? fixed[cons[q]] : base[size_t(cons[q]) * variable];
           const bool turned = !fixed && reversed[q] != (cons[q] == Cons::mom && ends[e].mirror);
           end_U[q][e] = turned ? -u : u;
         }
@@ -129,11 +136,13 @@ void Gather::fill_rows(int block, Patch& patch, const int (&cons)[n_U], const in
   }
 }
 
-void Gather::fill(int block, Patch& patch, bool all_rows) const {
+void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) const {
   patch.block = block;
   patch.lower = forest_.lower(block);
+  patch.set_cell_size(forest_.shape(block).h);
   patch.burns = patch.limited = false;
   patch.material = material(block);
+  if (forest_.at_jump(block)) space.fill(forest_, state_, boundary_, medium_, block);
   if (patch.material && medium_.is_gas[patch.material - 1] && !all_rows) {
     const GasFlow& gas = medium_.gas[patch.material - 1];
     int cons[GasCons::count], prim[GasPrim::stored];
@@ -141,7 +150,7 @@ void Gather::fill(int block, Patch& patch, bool all_rows) const {
     for (int q = 0; q < GasPrim::count; ++q) prim[q] = gas.prim_row(q);
     prim[GasPrim::c] = Prim::c;
     prim[GasPrim::rho_c2] = Prim::rho_c2;
-    fill_rows(block, patch, cons, prim, [&](const Pack(&U)[GasCons::count], Pack(&W)[GasPrim::stored]) {
+    fill_rows(block, patch, space, cons, prim, [&](const Pack(&U)[GasCons::count], Pack(&W)[GasPrim::stored]) {
       gas_to_primitive(gas, U, W, medium_.floors);
     });
     return;
@@ -151,29 +160,58 @@ void Gather::fill(int block, Patch& patch, bool all_rows) const {
   std::iota(prim, prim + Prim::stored, 0);
   std::visit(
       [&](const auto& pair) {
-        fill_rows(block, patch, cons, prim, [&](const Pack(&U)[Cons::count], Pack(&W)[Prim::stored]) {
+        fill_rows(block, patch, space, cons, prim, [&](const Pack(&U)[Cons::count], Pack(&W)[Prim::stored]) {
           pair.to_primitive(U, W, medium_.floors);
         });
       },
       medium_.mixture);
 }
 
+/// Is the cell marked that (k, j, i) of the patch stands for, or one of the finer ones under it?
+bool Gather::marked(int block, const std::function<const uint8_t*(int)>& marks, int k, int j, int i) const {
+  const BlockShape& s = forest_.shape();
+  const GhostSource source_of[3] = {source(block, 0, i), source(block, 1, j), source(block, 2, k)};
+  std::array<int, 3> offset, at;
+  for (int d = 0; d < 3; ++d) {
+    if (source_of[d].constant) return false;
+    offset[size_t(d)] = source_of[d].offset, at[size_t(d)] = source_of[d].index;
+  }
+  const int b = forest_.neighbour(block, offset);
+  if (b >= 0) {
+    const uint8_t* m = marks(b);
+    return m && m[s.at(at[2], at[1], at[0])];
+  }
+  const LevelJump& jump = forest_.jump(b);
+  if (!jump.finer) {
+    const uint8_t* m = marks(jump.block[0]);
+    for (size_t d = 0; d < 3; ++d)
+      if (s.used[d]) at[d] = at[d] / 2 + ((forest_.place(block)[d] + offset[d]) & 1) * s.n[d] / 2;
+    return m && m[s.at(at[2], at[1], at[0])];
+  }
+  size_t child = 0;
+  for (size_t d = 0; d < 3; ++d)
+    if (s.used[d] && 2 * at[d] >= s.n[d]) child += size_t(1) << d;
+  const uint8_t* m = marks(jump.block[child]);
+  bool any = false;
+  for_each_child(s, [&](int, const int(&o)[3], const int(&)[3]) {
+    const auto fine = [&](size_t d) { return s.used[d] ? 2 * at[d] % s.n[d] + o[d] : 0; };
+    any = any || (m && m[s.at(fine(2), fine(1), fine(0))]);
+  });
+  return any;
+}
+
 void Gather::fill_order(int block, const std::function<const uint8_t*(int)>& marks, Patch& patch) const {
   const BlockShape& s = forest_.shape();
   const int g[3] = {s.ghost(0), s.ghost(1), s.ghost(2)};
-  const auto marked = [&](int k, int j, int i) {
-    const GhostSource sk = source(block, 2, k), sj = source(block, 1, j), si = source(block, 0, i);
-    if (sk.constant || sj.constant || si.constant) return false;
-    const uint8_t* m = marks(forest_.neighbour(block, {si.offset, sj.offset, sk.offset}));
-    return m && m[s.at(sk.index, sj.index, si.index)];
-  };
+  const auto is_marked = [&](int k, int j, int i) { return marked(block, marks, k, j, i); };
   for (int k = -g[2] / 2; k < s.n[2] + g[2] / 2; ++k)
     for (int j = -g[1] / 2; j < s.n[1] + g[1] / 2; ++j)
       for (int i = -g[0] / 2; i < s.n[0] + g[0] / 2; ++i) {
-        bool near = marked(k, j, i);
+        bool near = is_marked(k, j, i);
         for (int d = 0; d < 3 && !near; ++d)
           if (s.used[d])
-            near = marked(k - (d == 2), j - (d == 1), i - (d == 0)) || marked(k + (d == 2), j + (d == 1), i + (d == 0));
+            near = is_marked(k - (d == 2), j - (d == 1), i - (d == 0)) ||
+                   is_marked(k + (d == 2), j + (d == 1), i + (d == 0));
         patch.row(Prim::order, k, j)[i] = near ? 0.0 : 1.0;
       }
   patch.limited = true;

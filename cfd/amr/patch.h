@@ -15,7 +15,7 @@ namespace bw::cfd {
 
 inline constexpr int ghost_layers = 2;
 
-/// Cells of one block and of its storage. The same for all blocks of a run.
+/// Cells of one block and of its storage. The same for all blocks of a run, but for the cell size of their level.
 struct BlockShape {
   std::array<int, 3> n{1, 1, 1};                  ///< cells per direction
   std::array<bool, 3> used{false, false, false};  ///< false: the domain has one cell in this direction
@@ -42,6 +42,7 @@ class Patch {
     data_.assign(stride_ * Prim::rows, 0.0);
   }
   const BlockShape& shape() const { return shape_; }
+  void set_cell_size(const Vec3& h) { shape_.h = h; }
   /// Pointer to cell (k, j, i = 0) of a Prim row. Packs may be loaded from i = -margin to i = n(0) + margin_right - 1.
   double* row(int variable, int k, int j) { return data_.data() + offset(variable, k, j); }
   const double* row(int variable, int k, int j) const { return data_.data() + offset(variable, k, j); }

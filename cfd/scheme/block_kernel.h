@@ -31,6 +31,20 @@ struct BlockChange {
   int64_t scaled_cells = 0;          ///< cells whose face states were scaled (positivity.h)
   unsigned book_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted
   double side[6][Cons::count] = {};  ///< out: sum over the side's faces of flux * dt/h_d, for book_sides
+  unsigned keep_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted face by face
+  /// Out, for keep_sides: flux * dt/h_d, then face velocity * dt/h_d. [variable][faces], j + n_j k, i + n_i k or i + n_i
+  /// j, with room for hanging packs. Rows that the flow does not own are left alone.
+  Aligned<double> side_flux[6];
+  static constexpr int side_rows = Cons::count + 1;
+
+  size_t side_pitch(int d) const { return size_t(shape.cells() / shape.n[size_t(d)]) + 8; }
+  double* side_row(int side, int variable) { return side_flux[side].data() + side_pitch(side / 2) * size_t(variable); }
+  const double* side_row(int side, int variable) const { return const_cast<BlockChange*>(this)->side_row(side, variable); }
+  /// Room for the fluxes of the sides in keep_sides, zero.
+  void make_sides() {
+    for (int side = 0; side < 6; ++side)
+      if (keep_sides >> side & 1) side_flux[side].assign(side_pitch(side / 2) * side_rows, 0.0);
+  }
 };
 
 template <class Flow, class T>
@@ -48,7 +62,7 @@ class BlockKernel {
   /// Reads patch (filled, ghosts too); writes change (all rows of the flow's own variables; the others are left alone).
   void advance(const Patch& patch, const Flow& flow, double dt, BlockChange& change) {
     patch_ = &patch, flow_ = &flow, change_ = &change;
-    for (int d = 0; d < 3; ++d) lambda_[d] = shape_.used[d] ? dt / shape_.h[d] : 0;
+    for (int d = 0; d < 3; ++d) lambda_[d] = shape_.used[d] ? dt / patch.shape().h[d] : 0;
     change.scaled_cells = 0;
     for (auto& side : change.side) std::fill(side, side + Cons::count, 0.0);
     const int ky = shape_.used[1] ? 1 : 0, kz = shape_.used[2] ? 1 : 0;
@@ -185,6 +199,12 @@ class BlockKernel {
       const double *F = flux + q * f.pitch, *v_face = flux + n_flux * f.pitch;
       for (int upper = 0; upper < 2; ++upper)
         if (change_->book_sides >> upper & 1) change_->side[upper][flow_->cons_row(q)] += F[upper * n0];
+      for (int upper = 0; upper < 2; ++upper)
+        if (change_->keep_sides >> upper & 1) {
+          const int face = k * shape_.n[1] + j;
+          change_->side_row(upper, flow_->cons_row(q))[face] = F[upper * n0];
+          if (Flow::mixed && q == Cons::alpha1) change_->side_row(upper, Cons::count)[face] = v_face[upper * n0];
+        }
       for (int i = 0; i < n0; i += w) {
         T d = Lane<T>::load(F + i) - Lane<T>::load(F + i + 1);
         if (Flow::mixed && q == Cons::alpha1)
@@ -208,11 +228,13 @@ class BlockKernel {
       below[q] = at > 0 ? change_->row(flow_->cons_row(q), k0, j0) : nullptr;
     }
     const int side = 2 * axis + (at == 0 ? 0 : 1);
-    const bool booked = (at == 0 || at == end) && (change_->book_sides >> side & 1);
+    const bool booked = (at == 0 || at == end) && (change_->book_sides >> side & 1),
+               kept = (at == 0 || at == end) && (change_->keep_sides >> side & 1);
     for (int i = 0; i < shape_.n[0]; i += w) {
       T F[n_flux];
       const T v_face = solve<axis>(f, i, F);
       if (booked) book(side, F, std::min(w, shape_.n[0] - i));
+      if (kept) keep(side, (axis == 1 ? k : j) * shape_.n[0] + i, F, v_face, std::min(w, shape_.n[0] - i));
       if (at < end) add(above, i, F, v_face, alpha1, T(1));
       if (at > 0) add(below, i, F, v_face, alpha1 - step, T(-1));
     }
@@ -230,6 +252,13 @@ class BlockKernel {
       double lane[w];
       Lane<T>::store(lane, F[q]);
       for (int l = 0; l < count; ++l) change_->side[side][flow_->cons_row(q)] += lane[l];
+    }
+  }
+  void keep(int side, int face, const T (&F)[n_flux], T v_face, int count) {
+    double lane[w];
+    for (int q = 0; q < n_flux + (Flow::mixed ? 1 : 0); ++q) {
+      Lane<T>::store(lane, q < n_flux ? F[q] : v_face);
+      std::copy_n(lane, count, change_->side_row(side, q < n_flux ? flow_->cons_row(q) : int(Cons::count)) + face);
     }
   }
 

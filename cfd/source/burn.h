@@ -16,7 +16,8 @@ struct Burn {
   double start = 0;          ///< s
   double D = 0;              ///< m/s
   double width = 3;          ///< of the front, in cells
-  double h = 0;              ///< cell size [m]
+  double h = 0;              ///< cell size where it burns [m]
+  double margin = 0;         ///< largest cell size [m]
   double q = 0;              ///< energy released per mass of explosive [J/kg]
   double c_CJ = 0;           ///< speed of sound behind the front [m/s], for the step
   double t_all = 0;          ///< everything is burnt from here on [s]
@@ -39,7 +40,7 @@ struct Burn {
     for (const Vec3& p : points) {
       double least = 0, most = 0;
       for (int d = 0; d < 3; ++d) {
-        const double below = lower[d] - h - p[d], above = p[d] - upper[d] - h;
+        const double below = lower[d] - margin - p[d], above = p[d] - upper[d] - margin;
         const double gap = std::max({below, above, 0.0}), reach = std::max(-below, -above);
         least += gap * gap, most += reach * reach;
       }

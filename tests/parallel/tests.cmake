@@ -24,3 +24,8 @@ if(TARGET csd AND TARGET cfd)
     set_tests_properties(parallel_csd_${group} PROPERTIES TIMEOUT 900)
   endforeach()
 endif()
+# cfd likewise, with levels
+if(TARGET csd AND TARGET cfd)
+  add_test(NAME parallel_cfd_levels COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/cfd.py ${CMAKE_BINARY_DIR})
+  set_tests_properties(parallel_cfd_levels PROPERTIES TIMEOUT 900)
+endif()

@@ -1,92 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole flows, from a case's text to sums over the domain: conservation, invariants, equality of ways to the same
 // result.
-#include <gtest/gtest.h>
-
-#include <unistd.h>
-
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
-#include "cfd/books.h"
-#include "cfd/build.h"
 #include "cfd/output.h"
-#include "cfd/step.h"
 #include "common/app/machine.h"
+#include "tests/unit/cfd/whole_flow.h"
 
 namespace bw::cfd {
 namespace {
-
-Comm world() {
-  static int argc = 1;
-  static char name[] = "unit_cfd", *list[] = {name, nullptr}, **argv = list;
-  static Session session(argc, argv);
-  return session.world();
-}
-
-Case read_text(const std::string& text) {
-  CommandLine line;
-  line.case_file = testing::TempDir() + "/flow_" + std::to_string(getpid()) + ".toml";
-  std::ofstream(line.case_file) << "[time]\nend = 1\n" << text;
-  return read_case(line);
-}
-
-struct Flow {
-  Case cs;
-  Model m;
-  Sweep sweep;
-  Books books;
-  explicit Flow(const std::string& text, bool skip_quiet = true)
-      : cs(read_text(text)), m(world(), cs), sweep(m.forest, m.setup, nullptr), books(m) {
-    m.setup.skip_quiet = skip_quiet;
-    paint(m, cs);
-    books.refresh(m, all());
-  }
-  std::vector<int> all() const {
-    std::vector<int> blocks;
-    for (int b = 0; b < m.forest.local_blocks(); ++b) blocks.push_back(b);
-    return blocks;
-  }
-  void steps(int n, double dt = 0) {
-    for (int i = 0; i < n; ++i) {
-      const double t = m.state.t, stable = cs.fluid.scheme.cfl / sweep.max_rate(m.state);
-      coupling::Loads loads;
-      m.state.t = t + step(m, sweep, books, dt > 0 ? std::min(dt, stable) : stable, nullptr, true, &loads);
-    }
-  }
-  FluidSums sums() const { return books.sums(m); }
-  std::vector<double> bits() const {
-    std::vector<double> all_cells;
-    for (int b : all()) all_cells.insert(all_cells.end(), m.state.block(b), m.state.block(b) + m.state.block_size());
-    return all_cells;
-  }
-};
-
-const std::string air_and_tnt = R"(
-[[fluid.material]]
-name = "TNT"
-library = "TNT"
-[[fluid.material]]
-name = "air"
-library = "air"
-[[fluid.region]]
-shape = {kind = "everywhere"}
-material = "air"
-density = 1.225
-pressure = 101325
-)";
-std::string grid(const std::string& cells, const std::string& upper, const std::string& boundary = "") {
-  return "[fluid]\nlower = [0, 0, 0]\nupper = " + upper + "\ncells = " + cells + "\nboundary = {" + boundary + "}\n";
-}
-const char* periodic_sides =
-    R"(x_lower = "periodic", x_upper = "periodic", y_lower = "periodic", y_upper = "periodic", z_lower = "periodic", z_upper = "periodic")";
-const std::string hot_ball = R"([[fluid.region]]
-shape = {kind = "sphere", centre = [0.31, 0.3, 0.28], radius = 0.17}
-material = "TNT"
-density = 400
-pressure = 2e8
-)";
 
 TEST(Blocks, DivideAnyNumberOfCells) {
   for (int n : {1, 4, 16, 64, 97, 100, 208, 250, 256, 400, 1009}) {

@@ -69,7 +69,7 @@ TEST(Library, CjOfTntToAllDigits) {
 TEST(Detonation, PhasesOfABlock) {
   Burn b;
   b.points = {{0, 0, 0}};
-  b.D = 7000, b.h = 0.01, b.width = 3, b.q = 1;
+  b.D = 7000, b.h = b.margin = 0.01, b.width = 3, b.q = 1;
   const Vec3 lower{0.1, 0, 0}, upper{0.2, 0.1, 0.1};
   const double arrives = (0.1 - b.h) / b.D, leaves = (norm({0.21, 0.11, 0.11}) + b.width * b.h) / b.D;
   EXPECT_EQ(b.phase(lower, upper, 0, 0.99 * arrives), Burn::Phase::before);

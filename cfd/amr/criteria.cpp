@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/amr/criteria.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/parallel/loop.h"
+
+namespace bw::cfd {
+
+namespace {
+
+constexpr double ripple = 0.02;
+
+/// Cells of one block that ask for a level, as the box around them; indices of the block.
+struct Asked {
+  int level = -1;
+  Index3 lower{}, upper{};  ///< [lower, upper)
+  void add(int k, int j, int i) {
+    const Index3 c{i, j, k};
+    for (size_t d = 0; d < 3; ++d) {
+      lower[d] = level < 0 ? c[d] : std::min(lower[d], c[d]);
+      upper[d] = level < 0 ? c[d] + 1 : std::max(upper[d], c[d] + 1);
+    }
+  }
+};
+/// What a block wants for itself, and what its cells ask of their surroundings.
+struct Wish {
+  int level = 0;
+  Asked more, same;
+};
+
+class Criteria {
+ public:
+  Criteria(const RefineInput& in, const RefineRules& rules)
+      : in_(in), rules_(rules), gather_(in.forest, in.state, in.boundary, in.medium) {}
+
+  struct Space {
+    Patch patch;
+    LevelGhosts ghosts;
+  };
+
+  Wish wish(int b, Space& space) const {
+    Wish w;
+    if (in_.walls) {
+      const Index3 first = in_.forest.first_finest(b), n = in_.forest.finest_cells(b);
+      Index3 lower = first, upper;
+      for (size_t d = 0; d < 3; ++d) {
+        const int more = in_.forest.shape().used[d] ? rules_.wall_cells : 0;
+        lower[d] -= more, upper[d] = first[d] + n[d] + more;
+      }
+      if (near_wall(lower, upper)) {
+        w.level = in_.forest.levels();
+        return w;
+      }
+      if (in_.walls->map().touches(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]}) &&
+          in_.walls->map().all_blocked(first, {first[0] + n[0], first[1] + n[1], first[2] + n[2]}))
+        return w;
+    }
+    for (const FineRegion& r : rules_.region)
+      if (r.level > w.level && reaches(r.shape, b)) w.level = r.level;
+    if (burns(b)) w.level = in_.forest.levels();
+    if (rules_.follow_flow && !gather_.quiet(b)) look(b, space, w);
+    return w;
+  }
+
+  /// Does what block `from` asked reach block b?
+  int level_from(const Wish& w, int from, int b) const {
+    int level = 0;
+    for (const Asked* asked : {&w.more, &w.same})
+      if (asked->level > level && touches(*asked, from, b)) level = asked->level;
+    return level;
+  }
+
+ private:
+  bool near_wall(Index3 lower, Index3 upper) const {
+    const CutMap& map = in_.walls->map();
+    for (size_t d = 0; d < 3; ++d) {
+      lower[d] = std::max(lower[d], 0);
+      upper[d] = std::min(upper[d], map.lattice().n[d]);
+    }
+    return map.touches(lower, upper) && !map.all_blocked(lower, upper);
+  }
+  bool reaches(const RegionShape& shape, int b) const {
+    const Vec3 half = 0.5 * in_.forest.extent(b), centre = in_.forest.lower(b) + half;
+    double radius = 0;
+    for (int d = 0; d < 3; ++d)
+      if (in_.forest.shape().used[size_t(d)]) radius += half[d] * half[d];
+    return std::visit(
+        [&](const auto& s) {
+          if constexpr (requires { s.distance(centre); }) return s.distance(centre) < std::sqrt(radius);
+          return false;
+        },
+        shape);
+  }
+  /// Explosive that is not yet burnt.
+  bool burns(int b) const {
+    if (!in_.burn || in_.state.t >= in_.burn->t_all || in_.state.info[size_t(b)].material == 2) return false;
+    const Vec3 lower = in_.forest.lower(b);
+    const double t = in_.state.t;
+    if (in_.burn->phase(lower, lower + in_.forest.extent(b), t, t) == Burn::Phase::after) return false;
+    const double* alpha = in_.state.block(b, Cons::alpha1);
+    return std::any_of(alpha, alpha + in_.forest.shape().cells(), [](double a) { return a > 1e-3; });
+  }
+  void look(int b, Space& space, Wish& w) const {
+    const BlockShape& s = in_.forest.shape();
+    const int level = in_.forest.level(b);
+    if (space.patch.pitch() == 0) space.patch = Patch(s);
+    gather_.fill(b, space.patch, space.ghosts);
+    const Patch& p = space.patch;
+    const bool gas = p.material != 0 && in_.medium.is_gas[p.material - 1];
+    const int rho1 = gas && p.material == 2 ? Prim::arho2 : Prim::arho1, rho2 = gas ? -1 : int(Prim::arho2);
+    int used[3], directions = 0;
+    for (int d = 0; d < 3; ++d)
+      if (s.used[size_t(d)]) used[directions++] = d;
+    const ptrdiff_t step[3] = {1, p.stride_j(), p.stride_k()};
+    for (int k = 0; k < s.n[2]; ++k)
+      for (int j = 0; j < s.n[1]; ++j)
+        for (int i = 0; i < s.n[0]; ++i) {
+          double most = 0;
+          for (const int q : {int(Prim::p), rho1}) {
+            const double* f = p.row(q, k, j) + i;
+            const double* g = q == rho1 && rho2 >= 0 ? p.row(rho2, k, j) + i : nullptr;
+            double below[3], above[3];
+            for (int e = 0; e < directions; ++e) {
+              const ptrdiff_t by = step[used[e]];
+              below[e] = f[-by] + (g ? g[-by] : 0), above[e] = f[by] + (g ? g[by] : 0);
+            }
+            most = std::max(most, refine_indicator(directions, below, f[0] + (g ? g[0] : 0), above));
+          }
+          if (most > rules_.refine) ask(w.more, k, j, i, std::min(level + 1, in_.forest.levels()));
+          if (most > rules_.coarsen) ask(w.same, k, j, i, level);
+        }
+  }
+  static void ask(Asked& a, int k, int j, int i, int level) {
+    a.add(k, j, i);
+    a.level = level;
+  }
+  /// Does the asking box, widened by the buffer, meet block b, around periodic sides too?
+  bool touches(const Asked& a, int from, int b) const {
+    const Forest& f = in_.forest;
+    const Index3 from_first = f.first_finest(from), first = f.first_finest(b), n = f.finest_cells(b),
+                 end = f.cells_of_level(f.levels());
+    const int scale = 1 << (f.levels() - f.level(from));
+    for (size_t d = 0; d < 3; ++d) {
+      if (!f.shape().used[d]) continue;
+      const int lower = from_first[d] + (a.lower[d] - rules_.buffer) * scale,
+                upper = from_first[d] + (a.upper[d] + rules_.buffer) * scale;
+      bool meet = false;
+      for (int wrap : {0, -end[d], end[d]})
+        if (wrap == 0 || f.size().periodic[d])
+          meet = meet || (lower + wrap < first[d] + n[d] && upper + wrap > first[d]);
+      if (!meet) return false;
+    }
+    return true;
+  }
+
+  const RefineInput& in_;
+  const RefineRules& rules_;
+  Gather gather_;
+};
+
+}  // namespace
+
+double refine_indicator(int n, const double (&a)[3], double b, const double (&c)[3]) {
+  double top = 0, bottom = 0;
+  for (int d = 0; d < n; ++d) {
+    const double second = c[d] - 2 * b + a[d];
+    const double scale =
+        std::abs(c[d] - b) + std::abs(b - a[d]) + ripple * (std::abs(c[d]) + 2 * std::abs(b) + std::abs(a[d]));
+    top += second * second, bottom += scale * scale;
+  }
+  return bottom > 0 ? std::sqrt(top / bottom) : 0;
+}
+
+std::vector<int8_t> refine_wishes(const RefineInput& in, const RefineRules& rules) {
+  const Forest& forest = in.forest;
+  const Criteria criteria(in, rules);
+  std::vector<Wish> wishes(size_t(forest.local_blocks() + forest.ghost_blocks()));
+  std::vector<Criteria::Space> spaces{size_t(thread_count())};
+  parallel_for_dynamic(forest.local_blocks(), spaces,
+                       [&](int64_t b, Criteria::Space& space) { wishes[size_t(b)] = criteria.wish(int(b), space); });
+  forest.exchange(
+      sizeof(Wish), [&](int b) { return &wishes[size_t(b)]; }, wishes.data() + forest.local_blocks());
+  std::vector<int8_t> result(size_t(forest.local_blocks()), 0);
+  for (int b = 0; b < forest.local_blocks(); ++b) {
+    const Wish& own = wishes[size_t(b)];
+    int level = std::max({own.level, own.more.level, own.same.level});
+    for (int a : forest.around(b)) level = std::max(level, criteria.level_from(wishes[size_t(a)], a, b));
+    level = std::min(level, forest.levels());
+    result[size_t(b)] = int8_t(level > forest.level(b) ? 1 : level < forest.level(b) ? -1 : 0);
+  }
+  return result;
+}
+
+}  // namespace bw::cfd

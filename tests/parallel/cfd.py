@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""cfd with blocks of three levels on 1, 2 and 3 ranks and 1 and 2 threads: the same bits in all fields and histories.
+    cfd.py BUILD_FOLDER"""
+import os
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parents[1] / "run"), str(HERE.parents[1] / "tests" / "regression")]
+os.environ["BREAKWAVE_BUILD"] = str(pathlib.Path(sys.argv[1]).resolve())
+sys.argv = sys.argv[:2]  # the regression runs, whose shell is used here, read theirs
+import runs  # noqa: E402
+from fields import history  # noqa: E402
+from verification.case import output, run  # noqa: E402
+
+# a charge off every plane of symmetry beside a plate that flies: levels by flow, burn and wall, moved over the ranks
+CHARGE = ("[time]\nend = \"24 us\"\n" + output("8 us", "1 us")
+          + "[fluid]\nlower = [0, 0, 0]\nupper = [0.4, 0.2, 0.2]\ncells = [32, 16, 16]\n"
+          + 'boundary = {x_upper = "outflow", y_upper = "outflow", z_upper = "outflow"}\n'
+          + "[fluid.amr]\nlevels = 2\nblock = 8\nevery = 3\n"
+          + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[[fluid.material]]\nname = "air"\nlibrary = "air"\n'
+          + '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "air"\ndensity = 1.225\npressure = 101325.0\n'
+          + '[[fluid.region]]\nshape = {kind = "sphere", centre = [0.07, 0.05, 0.06], radius = 0.03}\nmaterial = "TNT"\nunburnt = true\npressure = 101325.0\n'
+          + '[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.07, 0.05, 0.06]]\n'
+          + '[[fluid.body]]\nname = "plate"\nshape = {kind = "box", lower = [0.15, 0.03, 0.02], upper = [0.17, 0.1, 0.12]}\n'
+          + 'motion = {kind = "velocity", value = [300.0, 0.0, 0.0]}\n')
+LAYOUTS = [("1", 1), ("1", 2), ("2", 1), ("3", 1)]
+
+
+def main():
+    faults, base = [], None
+    for ranks, threads in LAYOUTS:
+        result = run(f"parallel_cfd_{ranks}_{threads}", CHARGE, only="fluid", ranks=ranks, threads=threads)
+        base = base or result.directory
+        different = runs.differences(base, result.directory)
+        print(f"{ranks} ranks of {threads} threads: {'the same bits' if not different else 'DIFFERENT: ' + ', '.join(different[:6])}")
+        faults += different
+    table = history(base / "fluid_history.csv")
+    moved = len(set(table["active_share"])) > 3
+    print("the grid changed" if moved else "the grid never changed: this shows nothing")
+    return 1 if faults or not moved else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
