@@ -37,13 +37,16 @@ class EnergyWatch {
   void check(const EnergyRow& row, const Model& m);
   /// After each step; costs nothing unless an audit is under way.
   void tick(const Model& m);
-  /// Largest |residual| over the energy at hand so far.
+  /// |residual| over the energy at hand (the most that was there so far): at the last check, the largest so far. 0
+  /// while there is none to speak of, no more than round-off makes of the elements' stiffness.
+  double part() const { return part_; }
   double worst() const { return worst_; }
 
  private:
   static constexpr int audit_steps = 50;
   EnergyCase case_;
-  double scale_ = 0, worst_ = 0;
+  double scale_ = 0, part_ = 0, worst_ = 0;
+  std::optional<double> round_off_;  // J
   bool warned_ = false;
   std::optional<EnergyAudit> audit_;
 };

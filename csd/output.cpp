@@ -248,10 +248,8 @@ void Output::tick(const Model& m) {
   }
   watch_.tick(m);
   progress_.tick(m.state.step, m.state.t, [&] {
-    const double scale =
-        std::fmax(std::fabs(energy_.kinetic) + energy_.elastic + energy_.plastic + std::fabs(energy_.external), 1e-300);
     return fmt::format("dt {:.3g} s ({}), energy residual {:.1e}, {} nodes, {:.2f} Melem/s", m.state.dt, limiter(m),
-                       energy_.residual / scale, m.mesh.node_count(), 1e-6 * rate());
+                       std::copysign(watch_.part(), energy_.residual), m.mesh.node_count(), 1e-6 * rate());
   });
 }
 

@@ -11,9 +11,19 @@
 namespace bw::csd {
 namespace {
 
-/// v_e / V_e at s.x.
-void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J) {
+/// Elements of rigid bodies keep what they had: they share no node with others. Blocks of them alone are passed over.
+bool is_rigid(const State& s, SlotId slot) { return s.rigid.size() > 0 && s.rigid[slot] > 0; }
+bool is_rigid(const State& s, int block) {
+  if (s.rigid.size() == 0) return false;
+  for (int l = 0; l < lanes; ++l)
+    if (s.rigid[SlotId(block * lanes + l)] == 0) return false;
+  return true;
+}
+
+/// v_e / V_e at s.x; `skips`: but of rigid bodies.
+void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J, bool skips) {
   for_blocks(el.blocks, [&](int block, int) {
+    if (skips && is_rigid(s, block)) return;
     for (int l = 0; l < lanes; l += Pack::size) {
       const SlotId slot(block * lanes + l);
       const Pack v = volume_of(modes_of(gather(s.x.data(), el.blocks.nodes_of(block) + l)));
@@ -34,10 +44,12 @@ void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<dou
   });
 }
 
-/// Nodal sums of what elements have.
-void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>& a, Field<double, NodeId>& sum) {
+/// Nodal sums of what elements have; `skips`: but of rigid bodies.
+void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>& a, Field<double, NodeId>& sum,
+                bool skips) {
   s.for_nodes([&](NodeId n) { sum[n] = 0; });
   for_coloured_blocks(el.blocks, [&](int block, int) {
+    if (skips && is_rigid(s, block)) return;
     add_to_corners(
         el.blocks, block, [&](int, int l) { return a[SlotId(block * lanes + l)]; }, sum);
   });
@@ -68,7 +80,7 @@ PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const S
 void PressureFilter::renew(const Elements& el, const State& s) {
   share_.resize(s.x.size());
   sum_.resize(s.x.size());
-  nodal_sums(el, s, s.V0, sum_);
+  nodal_sums(el, s, s.V0, sum_, false);
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
 }
 
@@ -142,14 +154,17 @@ void PressureFilter::mean(const Elements& el, const State& s, const Field<double
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
                              Field<double, SlotId>& out) {
   for_blocks(el.blocks, [&](int block, int) {
+    if (skips_rigid_ && is_rigid(s, block)) return;
     for (SlotId slot(block * lanes); slot < (block + 1) * lanes; slot = SlotId(slot + 1))
-      out[slot] = s.V0[slot] * a[slot];
+      if (!skips_rigid_ || !is_rigid(s, slot)) out[slot] = s.V0[slot] * a[slot];
   });
-  nodal_sums(el, s, out, sum_);
+  nodal_sums(el, s, out, sum_, skips_rigid_);
   s.for_nodes([&](NodeId n) { sum_[n] *= share_[n]; });
   for_blocks(el.blocks, [&](int block, int) {
+    if (skips_rigid_ && is_rigid(s, block)) return;
     const int32_t* nodes = el.blocks.nodes_of(block);
     for (int l = 0; l < lanes; ++l) {
+      if (skips_rigid_ && is_rigid(s, SlotId(block * lanes + l))) continue;
       const auto at = [&](int c) { return sum_[NodeId(nodes[c * lanes + l])]; };
       const double mean = ((at(0) + at(1)) + (at(2) + at(3))) + ((at(4) + at(5)) + (at(6) + at(7)));
       const SlotId slot(block * lanes + l);
@@ -160,7 +175,7 @@ void PressureFilter::average(const Elements& el, const State& s, const Field<dou
 
 const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const State& s) {
   sigma_.resize(J_.size());
-  volume_ratios(el, s, J_);
+  volume_ratios(el, s, J_, skips_rigid_);
   if (case_.gate != "none") {
     smooth_gated(el, s);
   } else if (self_adjoint_) {
@@ -239,7 +254,8 @@ double PressureFilter::energy(const Elements& el, const State& s) const {
 
 double checkerboard(const Elements& el, const State& s) {
   PressureFilter whole(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
-  volume_ratios(el, s, whole.J_);
+  whole.skips_rigid_ = false;
+  volume_ratios(el, s, whole.J_, false);
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough =

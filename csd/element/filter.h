@@ -75,6 +75,7 @@ class PressureFilter {
   FilterCase case_;
   bool self_adjoint_;
   double strength_;
+  bool skips_rigid_ = true;      // elements of rigid bodies keep their values
   Field<double, NodeId> share_;  // 1/m^3: an eighth over the volume of a node's elements
   Field<double, NodeId> sum_;    // work space
   Field<double, SlotId> J_, theta_, stress_, sigma_;

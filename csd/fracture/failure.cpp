@@ -53,6 +53,11 @@ void Failure::update(const Elements& el, const State& s, const Resting& resting,
   };
   for_blocks(el.blocks, [&](int block, int body) {
     if (is_resting(block)) return;
+    if (resting.any() && resting.state[size_t(block)] == Resting::rigid) {  // rigid bodies don't break
+      for (int l = 0; l < el.blocks.used[size_t(block)]; ++l)
+        values_[size_t(el.blocks.elem[SlotId(block * lanes + l)])] = 0;
+      return;
+    }
     double eqps[lanes];
     mean_eqps(el, s, block, body, eqps);
     std::visit(
@@ -61,7 +66,7 @@ void Failure::update(const Elements& el, const State& s, const Resting& resting,
             const SlotId slot(block * lanes + l);
             const size_t e = size_t(el.blocks.elem[slot]);
             double* memory = memory_.data() + e * C::memory;
-            if (s.rigid.size() > 0 && s.rigid[slot] > 0) {  // rigid bodies don't break
+            if (s.rigid.size() > 0 && s.rigid[slot] > 0) {
               values_[e] = 0;
               continue;
             }

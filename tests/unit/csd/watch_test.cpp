@@ -33,6 +33,22 @@ TEST(EnergyWatch, EndsARunThatLosesTooMuch) {
   EXPECT_THROW(watch.check(energy_row(m.physics, m.state), m), PhysicsError);
 }
 
+TEST(EnergyWatch, RoundOffIsNoEnergy) {
+  Model m = thrown_against_a_wall();
+  for (Vec3& v : m.state.v) v = {};
+  m.physics.energy.initial = 0;
+  EnergyRow row = energy_row(m.physics, m.state);
+  EnergyWatch watch({0.01, 0.05});
+  row.residual = row.elastic = 1e-9;  // of a bar of 3 cm^3 of copper, whose volumes have a round-off of 1e-16
+  EXPECT_NO_THROW(watch.check(row, m));
+  EXPECT_EQ(watch.worst(), 0);
+  row.elastic = 1e-3, row.residual = 4e-5;  // small, but energy
+  EXPECT_NO_THROW(watch.check(row, m));
+  EXPECT_NEAR(watch.worst(), 0.04, 1e-12);
+  row.residual = 1e-4;
+  EXPECT_THROW(watch.check(row, m), PhysicsError);
+}
+
 TEST(EnergyAudit, FindsTheElementThatLosesIt) {
   Model m = thrown_against_a_wall();
   for (int n = 0; n < 50; ++n) step(m, 0.9 * stable(m));
