@@ -4,42 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include "csd/mesh/star.h"
+
 namespace bw::csd {
 namespace {
 
 bool is_one_group(int32_t a, int32_t b) { return a == b || (a < 0 && b < 0); }
-
-/// Parts of a node's star that bonded faces inside a group join, by their first element. [place in the star]
-int parts_of(const Mesh& mesh, const Topology& topology, const Field<int32_t, ElemId>& group, NodeId n,
-             std::vector<int>& part) {
-  const auto star = topology.elements(n);
-  part.assign(star.size(), -1);
-  std::vector<size_t> open;
-  int parts = 0;
-  for (size_t i = 0; i < star.size(); ++i) {
-    if (part[i] >= 0) continue;
-    part[i] = parts;
-    open.assign(1, i);
-    while (!open.empty()) {
-      const ElemId e = star[open.back()];
-      open.pop_back();
-      for (int side = 0; side < 6; ++side) {
-        const Face f{e, side};
-        if (!topology.is_bonded(f)) continue;
-        const ElemId other = topology.partner(f).elem;
-        if (!is_one_group(group[e], group[other])) continue;
-        const auto q = mesh.nodes_of(f);
-        if (std::find(q.begin(), q.end(), n) == q.end()) continue;
-        const size_t j = size_t(std::lower_bound(star.begin(), star.end(), other) - star.begin());
-        if (part[j] >= 0) continue;
-        part[j] = parts;
-        open.push_back(j);
-      }
-    }
-    ++parts;
-  }
-  return parts;
-}
 
 /// The part of its group that an element hangs together with by bonded faces, among elements not seen yet.
 std::vector<ElemId> part_of(const Topology& topology, const Field<int32_t, ElemId>& group, ElemId first,
@@ -81,7 +51,8 @@ int64_t cut_between(Mesh& mesh, Topology& topology, const Field<int32_t, ElemId>
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<int> part;
   for (const NodeId n : nodes) {
-    const int parts = parts_of(mesh, topology, group, n, part);
+    const auto is_joined = [&](ElemId a, ElemId b) { return is_one_group(group[a], group[b]); };
+    const int parts = star_parts(topology, mesh, n, part, is_joined);
     if (parts == 1) continue;
     const auto star = topology.elements(n);
     std::vector<std::vector<ElemId>> members(static_cast<size_t>(parts));

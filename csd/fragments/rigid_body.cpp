@@ -81,8 +81,13 @@ void RigidBody::take_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>&
     for (const NodeId n : nodes_) f[n] = {};
     return;
   }
+  if (motion_ == Motion::translation) {
+    for (const NodeId n : nodes_) F_ += f[n];
+    const Vec3 acceleration = F_ / mass_;
+    for (const NodeId n : nodes_) f[n] = m[n] * acceleration;
+    return;
+  }
   for (size_t i = 0; i < nodes_.size(); ++i) F_ += f[nodes_[i]], T_ += cross(arm(i), f[nodes_[i]]);
-  if (motion_ == Motion::translation) T_ = {};
   const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
   for (size_t i = 0; i < nodes_.size(); ++i) f[nodes_[i]] = m[nodes_[i]] * (F_ / mass_ + cross(turning, arm(i)));
 }
@@ -107,9 +112,17 @@ void RigidBody::drift(double dt) {
 }
 
 void RigidBody::place_nodes(Field<Vec3, NodeId>& x) const {
+  if (motion_ == Motion::translation) {
+    for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = x_ + arm_[i];
+    return;
+  }
   for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = x_ + arm(i);
 }
 void RigidBody::move_nodes(Field<Vec3, NodeId>& v) const {
+  if (motion_ == Motion::translation) {
+    for (const NodeId n : nodes_) v[n] = v_;
+    return;
+  }
   for (size_t i = 0; i < nodes_.size(); ++i) v[nodes_[i]] = velocity_at(arm(i));
 }
 

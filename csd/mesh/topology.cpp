@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/app/error.h"
+#include "csd/mesh/star.h"
 
 namespace bw::csd {
 
@@ -47,31 +48,7 @@ Topology::Topology(const Mesh& mesh, const std::string& where)
 }
 
 int Topology::star_parts(const Mesh& mesh, NodeId n, std::vector<int>& part) const {
-  const auto star = elements(n);
-  part.assign(star.size(), -1);
-  int parts = 0;
-  std::vector<size_t> open;
-  for (size_t i = 0; i < star.size(); ++i) {
-    if (part[i] >= 0) continue;
-    part[i] = parts;
-    open.assign(1, i);
-    while (!open.empty()) {
-      const ElemId e = star[open.back()];
-      open.pop_back();
-      for (int side = 0; side < 6; ++side) {
-        const Face f{e, side};
-        if (!is_bonded(f)) continue;
-        const auto q = mesh.nodes_of(f);
-        if (std::find(q.begin(), q.end(), n) == q.end()) continue;
-        const size_t j = size_t(std::lower_bound(star.begin(), star.end(), partner(f).elem) - star.begin());
-        if (part[j] >= 0) continue;
-        part[j] = parts;
-        open.push_back(j);
-      }
-    }
-    ++parts;
-  }
-  return parts;
+  return csd::star_parts(*this, mesh, n, part, [](ElemId, ElemId) { return true; });
 }
 
 int Topology::star_parts(const Mesh& mesh, NodeId n) const {
