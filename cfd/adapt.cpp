@@ -13,10 +13,14 @@ namespace {
 const Burn* burn_of(const Model& m) { return m.setup.burn ? &*m.setup.burn : nullptr; }
 
 /// Changes the leaves; the origins of the new ones if any changed on any rank.
-std::vector<Origin> change_leaves(Model& m) {
+std::vector<Origin> change_leaves(Model& m, const std::vector<Asks>* asks) {
   exchange_state(m.forest, m.state);
-  const RefineInput in{m.forest, m.state, m.setup.boundary, m.setup.medium, burn_of(m), m.walls ? &*m.walls : nullptr};
-  const std::vector<int8_t> wishes = refine_wishes(in, *m.refine);
+  const RefineInput in{m.forest, m.state, m.setup.boundary, m.setup.medium, burn_of(m), m.walls ? &*m.walls : nullptr, asks};
+  std::vector<int8_t> wishes;
+  {
+    Timed timed("looking");
+    wishes = refine_wishes(in, *m.refine);
+  }
   const auto any = [&](bool mine) { return m.forest.comm().max(int64_t(mine)) > 0; };
   if (!any(std::any_of(wishes.begin(), wishes.end(), [](int8_t w) { return w != 0; }))) return {};
   std::vector<Origin> origins = m.forest.adapt(wishes);
@@ -46,8 +50,9 @@ void admit(Model& m, const std::vector<int>& blocks) {
 bool adapt(Model& m, Sweep& sweep, Books& books) {
   if (!m.refine || m.state.step % m.refine->every != 0) return false;
   Timed timed("regrid");
-  const std::vector<Origin> origins = change_leaves(m);
+  const std::vector<Origin> origins = change_leaves(m, sweep.asks());
   if (m.forest.comm().max(int64_t(origins.size())) == 0) return false;
+  Timed moving("carrying over");
   transfer_state(m.forest, {m.setup.medium, m.setup.boundary, burn_of(m)}, origins, m.state);
   if (m.forest.settle())
     move_state(m.forest, m.state);
@@ -66,7 +71,7 @@ bool adapt(Model& m, Sweep& sweep, Books& books) {
 }
 
 bool adapt_unpainted(Model& m) {
-  const std::vector<Origin> origins = change_leaves(m);
+  const std::vector<Origin> origins = change_leaves(m, nullptr);
   if (m.forest.comm().max(int64_t(origins.size())) == 0) return false;
   m.forest.settle();
   m.state.fit(m.forest);

@@ -252,6 +252,11 @@ void Output::finish(const Model& m, const Books& books, const std::string& statu
   s.counts.push_back({"cells", double(m.forest.global_cells())});
   s.counts.push_back({"blocks", double(m.forest.global_blocks())});
   s.values = {{"p_max", p_max_}, {"active_share", active_share_}};
+  if (m.refine) {
+    const double regrid = timers().seconds("regrid");
+    s.values.push_back({"levels_share", (books.seconds_between_levels + regrid) / std::max(flow + regrid, 1e-9)});
+    s.values.push_back({"regrid_share", regrid / std::max(flow + regrid, 1e-9)});
+  }
   if (root_) {
     s.write(case_.run.output.directory + "/fluid_summary.json", timers());
     say("{}: step {}, t = {:.6g} s, {:.2f} Mcell-updates/s in the flow", status, m.state.step, m.state.t, 1e-6 * n / std::max(flow, 1e-9));

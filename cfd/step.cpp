@@ -37,6 +37,7 @@ double place_walls(Model& m, Sweep& sweep, Books& books, const WallMotion& motio
 bool advance_flow(Model& m, Sweep& sweep, double dt) {
   Timed timed("flow");
   sweep.exchange(m.state);
+  sweep.look(m.refine && (m.state.step + 1) % m.refine->every == 0 ? &*m.refine : nullptr);
   sweep.select(m.state, dt);
   sweep.advance(m.state);
   for (int i = 0; i < 3 && sweep.bad() > 0; ++i) sweep.repeat_first_order(m.state);
@@ -77,6 +78,7 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
     if (i == most_tries) fail(m, sweep, dt);
   }
   sweep.commit(m.state);
+  books.seconds_between_levels = sweep.seconds_between_levels();
   books.refresh(m, sweep.active());
   if (m.walls) {
     const std::vector<Vec3> v = m.walls->surface().v;

@@ -44,6 +44,7 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
 void Sweep::fit() {
   const size_t n = size_t(forest_.local_blocks());
   active_.clear();
+  look_ = nullptr;
   result_.assign(n, {});
   gas_before_.assign(n, 0);
   pending_.assign(n, {});
@@ -63,6 +64,7 @@ bool Sweep::burns(int block) const {
 void Sweep::select(const State& s, double dt) {
   t_ = s.t, dt_ = dt;
   active_.clear();
+  asks_.assign(look_ ? size_t(forest_.local_blocks()) : 0, {});
   const Gather gather(forest_, s, setup_.boundary, setup_.medium);
   for (int b = 0; b < forest_.local_blocks(); ++b) {
     pending_[size_t(b)] = Booked{};
@@ -110,6 +112,10 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   Booked& booked = pending_[size_t(block)];
   booked = Booked{};
   gather.fill(block, patch, space.ghosts);
+  if (look_) {
+    const Stopwatch watch(space.ghosts.seconds);
+    asks_[size_t(block)] = asks_of(patch, setup_.medium, *look_, forest_.level(block), forest_.levels());
+  }
   if (first_order)
     gather.fill_order(
         block,
@@ -147,6 +153,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
 }
 
 void Sweep::match_levels(int block, Space& space) {
+  const Stopwatch watch(space.ghosts.seconds);
   fluxes_.record(block, space.change);
   std::vector<int> rows;
   for (int q = 0; q < (is_gas(space.patch) ? int(GasCons::count) : int(Cons::count)); ++q)
@@ -349,6 +356,12 @@ std::vector<int> Sweep::around_marked() const {
     if (beside) blocks.push_back(b);
   }
   return blocks;
+}
+
+double Sweep::seconds_between_levels() const {
+  double sum = 0;
+  for (const Space& space : spaces_) sum += space.ghosts.seconds;
+  return sum / double(spaces_.size());
 }
 
 void Sweep::commit(State& s) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "cfd/amr/criteria.h"
 #include "cfd/amr/flux_register.h"
 #include "cfd/amr/gather.h"
 #include "cfd/amr/update.h"
@@ -44,6 +45,10 @@ class Sweep {
   void exchange(State& s) const { exchange_state(forest_, s); }
   /// Chooses the blocks of a step of size dt.
   void select(const State& s, double dt);
+  /// The next step also notes what the flow at its start asks of the grid (rules; nullptr: it does not).
+  void look(const RefineRules* rules) { look_ = rules; }
+  /// What the last step noted, [local block]; nullptr: nothing.
+  const std::vector<Asks>* asks() const { return look_ ? &asks_ : nullptr; }
   /// Steps the chosen blocks.
   void advance(State& s);
   /// Cells with a state that can't be used, on all ranks.
@@ -57,6 +62,8 @@ class Sweep {
   /// Largest sum_d (|v_d| + c)/h_d over all ranks, with what a burning front will need until t + its answer.
   double max_rate(const State& s) const;
   const std::vector<int>& active() const { return active_; }
+  /// Time that a thread has spent on faces between levels, mean over the threads [s].
+  double seconds_between_levels() const;
   /// How many blocks the last step did.
   size_t stepped() const { return stepped_; }
   /// What the fluid gave to the walls in the step, all ranks.
@@ -104,6 +111,8 @@ class Sweep {
   FluxRegister fluxes_;
   std::vector<int> active_;
   size_t stepped_ = 0;
+  const RefineRules* look_ = nullptr;
+  std::vector<Asks> asks_;  ///< [local block]
   std::vector<UpdateResult> result_;  ///< [local block]
   std::vector<int8_t> gas_before_;    ///< [local block] 1 or 2: the gas that its last step was done for; 0: not one gas
   std::vector<Booked> pending_;       ///< [local block] of this step

@@ -10,24 +10,18 @@ namespace bw::cfd {
 
 namespace {
 
-constexpr double ripple = 0.02;
-
-/// Cells of one block that ask for a level, as the box around them; indices of the block.
-struct Asked {
-  int level = -1;
-  Index3 lower{}, upper{};  ///< [lower, upper)
-  void add(int k, int j, int i) {
-    const Index3 c{i, j, k};
-    for (size_t d = 0; d < 3; ++d) {
-      lower[d] = level < 0 ? c[d] : std::min(lower[d], c[d]);
-      upper[d] = level < 0 ? c[d] + 1 : std::max(upper[d], c[d] + 1);
-    }
+void add(Asked& a, int k, int j, int i, int level) {
+  const Index3 c{i, j, k};
+  for (size_t d = 0; d < 3; ++d) {
+    a.lower[d] = a.level < 0 ? c[d] : std::min(a.lower[d], c[d]);
+    a.upper[d] = a.level < 0 ? c[d] + 1 : std::max(a.upper[d], c[d] + 1);
   }
-};
+  a.level = level;
+}
 /// What a block wants for itself, and what its cells ask of their surroundings.
 struct Wish {
   int level = 0;
-  Asked more, same;
+  Asks asks;
 };
 
 class Criteria {
@@ -60,14 +54,21 @@ class Criteria {
     for (const FineRegion& r : rules_.region)
       if (r.level > w.level && reaches(r.shape, b)) w.level = r.level;
     if (burns(b)) w.level = in_.forest.levels();
-    if (rules_.follow_flow && !gather_.quiet(b)) look(b, space, w);
+    if (!rules_.follow_flow) return w;
+    if (in_.asks) {
+      w.asks = (*in_.asks)[size_t(b)];
+    } else if (!gather_.quiet(b)) {
+      if (space.patch.pitch() == 0) space.patch = Patch(in_.forest.shape());
+      gather_.fill(b, space.patch, space.ghosts);
+      w.asks = asks_of(space.patch, in_.medium, rules_, in_.forest.level(b), in_.forest.levels());
+    }
     return w;
   }
 
   /// Does what block `from` asked reach block b?
   int level_from(const Wish& w, int from, int b) const {
     int level = 0;
-    for (const Asked* asked : {&w.more, &w.same})
+    for (const Asked* asked : {&w.asks.more, &w.asks.same})
       if (asked->level > level && touches(*asked, from, b)) level = asked->level;
     return level;
   }
@@ -102,40 +103,6 @@ class Criteria {
     const double* alpha = in_.state.block(b, Cons::alpha1);
     return std::any_of(alpha, alpha + in_.forest.shape().cells(), [](double a) { return a > 1e-3; });
   }
-  void look(int b, Space& space, Wish& w) const {
-    const BlockShape& s = in_.forest.shape();
-    const int level = in_.forest.level(b);
-    if (space.patch.pitch() == 0) space.patch = Patch(s);
-    gather_.fill(b, space.patch, space.ghosts);
-    const Patch& p = space.patch;
-    const bool gas = p.material != 0 && in_.medium.is_gas[p.material - 1];
-    const int rho1 = gas && p.material == 2 ? Prim::arho2 : Prim::arho1, rho2 = gas ? -1 : int(Prim::arho2);
-    int used[3], directions = 0;
-    for (int d = 0; d < 3; ++d)
-      if (s.used[size_t(d)]) used[directions++] = d;
-    const ptrdiff_t step[3] = {1, p.stride_j(), p.stride_k()};
-    for (int k = 0; k < s.n[2]; ++k)
-      for (int j = 0; j < s.n[1]; ++j)
-        for (int i = 0; i < s.n[0]; ++i) {
-          double most = 0;
-          for (const int q : {int(Prim::p), rho1}) {
-            const double* f = p.row(q, k, j) + i;
-            const double* g = q == rho1 && rho2 >= 0 ? p.row(rho2, k, j) + i : nullptr;
-            double below[3], above[3];
-            for (int e = 0; e < directions; ++e) {
-              const ptrdiff_t by = step[used[e]];
-              below[e] = f[-by] + (g ? g[-by] : 0), above[e] = f[by] + (g ? g[by] : 0);
-            }
-            most = std::max(most, refine_indicator(directions, below, f[0] + (g ? g[0] : 0), above));
-          }
-          if (most > rules_.refine) ask(w.more, k, j, i, std::min(level + 1, in_.forest.levels()));
-          if (most > rules_.coarsen) ask(w.same, k, j, i, level);
-        }
-  }
-  static void ask(Asked& a, int k, int j, int i, int level) {
-    a.add(k, j, i);
-    a.level = level;
-  }
   /// Does the asking box, widened by the buffer, meet block b, around periodic sides too?
   bool touches(const Asked& a, int from, int b) const {
     const Forest& f = in_.forest;
@@ -162,15 +129,37 @@ class Criteria {
 
 }  // namespace
 
-double refine_indicator(int n, const double (&a)[3], double b, const double (&c)[3]) {
-  double top = 0, bottom = 0;
-  for (int d = 0; d < n; ++d) {
-    const double second = c[d] - 2 * b + a[d];
-    const double scale =
-        std::abs(c[d] - b) + std::abs(b - a[d]) + ripple * (std::abs(c[d]) + 2 * std::abs(b) + std::abs(a[d]));
-    top += second * second, bottom += scale * scale;
-  }
-  return bottom > 0 ? std::sqrt(top / bottom) : 0;
+Asks asks_of(const Patch& p, const Medium& medium, const RefineRules& rules, int level, int levels) {
+  const BlockShape& s = p.shape();
+  Asks asks;
+  const bool gas = p.material != 0 && medium.is_gas[p.material - 1];
+  const int rho1 = gas && p.material == 2 ? Prim::arho2 : Prim::arho1, rho2 = gas ? -1 : int(Prim::arho2);
+  int used[3], directions = 0;
+  for (int d = 0; d < 3; ++d)
+    if (s.used[size_t(d)]) used[directions++] = d;
+  const ptrdiff_t step[3] = {1, p.stride_j(), p.stride_k()};
+  const double more = rules.refine * rules.refine, same = rules.coarsen * rules.coarsen;
+  for (int k = 0; k < s.n[2]; ++k)
+    for (int j = 0; j < s.n[1]; ++j)
+      for (int i = 0; i < s.n[0]; i += Pack::size) {
+        Pack most(0.0);
+        for (const int q : {int(Prim::p), rho1}) {
+          const double* f = p.row(q, k, j) + i;
+          const double* g = q == rho1 && rho2 >= 0 ? p.row(rho2, k, j) + i : nullptr;
+          const auto value = [&](ptrdiff_t by) {
+            return g ? Pack::load(f + by) + Pack::load(g + by) : Pack::load(f + by);
+          };
+          Pack below[3], above[3];
+          for (int e = 0; e < directions; ++e) below[e] = value(-step[used[e]]), above[e] = value(step[used[e]]);
+          most = max(most, refine_indicator(directions, below, value(0), above));
+        }
+        if (!any(most > Pack(same))) continue;
+        for (int l = 0; l < std::min(Pack::size, s.n[0] - i); ++l) {
+          if (most[l] > more) add(asks.more, k, j, i + l, std::min(level + 1, levels));
+          if (most[l] > same) add(asks.same, k, j, i + l, level);
+        }
+      }
+  return asks;
 }
 
 std::vector<int8_t> refine_wishes(const RefineInput& in, const RefineRules& rules) {
@@ -185,7 +174,7 @@ std::vector<int8_t> refine_wishes(const RefineInput& in, const RefineRules& rule
   std::vector<int8_t> result(size_t(forest.local_blocks()), 0);
   for (int b = 0; b < forest.local_blocks(); ++b) {
     const Wish& own = wishes[size_t(b)];
-    int level = std::max({own.level, own.more.level, own.same.level});
+    int level = std::max({own.level, own.asks.more.level, own.asks.same.level});
     for (int a : forest.around(b)) level = std::max(level, criteria.level_from(wishes[size_t(a)], a, b));
     level = std::min(level, forest.levels());
     result[size_t(b)] = int8_t(level > forest.level(b) ? 1 : level < forest.level(b) ? -1 : 0);

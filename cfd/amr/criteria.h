@@ -26,20 +26,43 @@ struct RefineRules {
   std::vector<FineRegion> region;
 };
 
+/// Cells of one block that ask for a level, as the box around them; indices of the block, [lower, upper).
+struct Asked {
+  int level = -1;  ///< -1: none
+  std::array<int, 3> lower{}, upper{};
+};
+/// What the flow in a block asks of the grid in and around it: the next level, and to keep the one it is on.
+struct Asks {
+  Asked more, same;
+};
+/// patch: filled, two layers of ghosts; level: its block's, of levels.
+Asks asks_of(const Patch& patch, const Medium& medium, const RefineRules& rules, int level, int levels);
+
 struct RefineInput {
   const Forest& forest;
   const State& state;  ///< info of all blocks and the copies of other ranks' are current
   const Boundary& boundary;
   const Medium& medium;
-  const Burn* burn;    ///< nullptr: none
-  const Walls* walls;  ///< nullptr: none
+  const Burn* burn;               ///< nullptr: none
+  const Walls* walls;             ///< nullptr: none
+  const std::vector<Asks>* asks;  ///< [local block], of the last step if it has looked; nullptr: look now
 };
 
 /// Per local block: 1 to split, -1 to join with its siblings, 0. Collective; the same for any number of ranks.
 std::vector<int8_t> refine_wishes(const RefineInput& in, const RefineRules& rules);
 
-/// Lohner's indicator at a cell for n = 1 to 3 directions: a[d] below, b here, c[d] above. 0 where the profile is
-/// linear, 1 at a jump; ripples below `ripple` of the value do not count.
-double refine_indicator(int n, const double (&a)[3], double b, const double (&c)[3]);
+/// The square of Lohner's indicator at a cell for n = 1 to 3 directions: a[d] below, b here, c[d] above. 0 where the
+/// profile is linear, 1 at a jump; ripples below `ripple` of the value do not count.
+inline constexpr double ripple = 0.02;
+template <class T>
+T refine_indicator(int n, const T (&a)[3], T b, const T (&c)[3]) {
+  T top(0.0), bottom(1e-300);
+  for (int d = 0; d < n; ++d) {
+    const T second = c[d] - b - (b - a[d]);
+    const T scale = abs(c[d] - b) + abs(b - a[d]) + T(ripple) * (abs(c[d]) + T(2.0) * abs(b) + abs(a[d]));
+    top += second * second, bottom += scale * scale;
+  }
+  return top / bottom;
+}
 
 }  // namespace bw::cfd

@@ -29,11 +29,14 @@ std::vector<double>& LevelGhosts::place(const std::array<int, 3>& d) {
 
 void LevelGhosts::fill(const Forest& forest, const State& state, const Boundary& boundary, const Medium& medium,
                        int block) {
+  const Stopwatch watch(seconds);
   forest_ = &forest, state_ = &state, boundary_ = &boundary, medium_ = &medium, block_ = block;
   const BlockShape& s = forest.shape();
   cells_ = size_t(s.cells());
   coarse_.resize(size_t((s.n[0] / 2 + 2 * apron) * (s.n[1] / 2 + 2 * apron) * (s.n[2] / 2 + 2 * apron)));
   ++pass_;
+  children_ = children_of(s);
+  make_views();
   for (int o = 0; o < 27; ++o) {
     const int n = forest.neighbour(block, offset_of(o));
     if (n >= Forest::outside) continue;
@@ -48,23 +51,67 @@ void LevelGhosts::fill(const Forest& forest, const State& state, const Boundary&
 void LevelGhosts::restrict_from(const LevelJump& jump, const std::array<int, 3>& offset) {
   const BlockShape& s = forest_->shape();
   const Range x = ghost_range(s, 0, offset[0]), y = ghost_range(s, 1, offset[1]), z = ghost_range(s, 2, offset[2]);
-  const auto fine = [&](int d, int i) { return s.used[size_t(d)] ? 2 * i : i; };
+  const int by[3] = {s.used[0] ? 2 : 1, s.used[1] ? 2 : 1, s.used[2] ? 2 : 1};
   double* out = place(offset).data();
-  for (int q = 0; q < Cons::count; ++q)
-    for (int k = z.first; k < z.last; ++k)
-      for (int j = y.first; j < y.last; ++j)
-        for (int i = x.first; i < x.last; ++i) {
-          const int f[3] = {fine(0, i), fine(1, j), fine(2, k)};
-          const int child = (f[0] >= s.n[0]) + 2 * (f[1] >= s.n[1]) + 4 * (f[2] >= s.n[2]);
-          out[size_t(q) * cells_ + s.at(k, j, i)] = mean_of_children(state_->block(jump.block[size_t(child)], q), s,
-                                                                     f[2] % s.n[2], f[1] % s.n[1], f[0] % s.n[0]);
+  for (int k = z.first; k < z.last; ++k)
+    for (int j = y.first; j < y.last; ++j) {
+      const int fj = by[1] * j, fk = by[2] * k;
+      for (int i = x.first; i < x.last;) {  // the part of the row in one child
+        const int high = by[0] * i >= s.n[0], end = high ? x.last : std::min(x.last, s.n[0] / by[0]);
+        const int block = jump.block[size_t(high + 2 * (fj >= s.n[1]) + 4 * (fk >= s.n[2]))];
+        for (int q = 0; q < Cons::count; ++q) {
+          const double* U = state_->block(block, q);
+          double* row = out + size_t(q) * cells_ + s.at(k, j, 0);
+          for (int c = i; c < end; ++c)
+            row[c] = mean_of_children(U, s, fk % s.n[2], fj % s.n[1], by[0] * c - high * s.n[0]);
         }
+        i = end;
+      }
+    }
+}
+
+/// Where the cells of the next coarser level lie that are at an offset from the block.
+void LevelGhosts::make_views() {
+  const BlockShape& s = forest_->shape();
+  at_side_ = false;
+  for (int d = 0; d < 3; ++d)
+    at_side_ =
+        at_side_ || (s.used[size_t(d)] && (forest_->at_side(block_, d, false) || forest_->at_side(block_, d, true)));
+  if (at_side_) return;
+  for (int o = 0; o < 27; ++o) {
+    const std::array<int, 3> offset = offset_of(o);
+    const int n = forest_->neighbour(block_, offset);
+    View& v = view_[size_t(o)];
+    v = {};
+    if (n == Forest::outside) continue;
+    v.finer = n >= 0;
+    if (!v.finer && forest_->jump(n).finer) continue;
+    v.U = state_->block(v.finer ? n : forest_->jump(n).block[0]);
+    for (size_t d = 0; d < 3; ++d) {
+      v.scale[d] = s.used[d] ? (v.finer ? 2 : 1) : 0;
+      v.shift[d] = !s.used[d] ? 0
+                   : v.finer  ? -offset[d] * s.n[d]
+                              : (((forest_->place(block_)[d] + offset[d]) & 1) - offset[d]) * s.n[d] / 2;
+    }
+  }
 }
 
 /// U of a cell of the next coarser level, counted from the block's lower corner.
 void LevelGhosts::read_coarse(std::array<int, 3> c, double (&U)[Cons::count]) const {
   const BlockShape& s = forest_->shape();
   std::array<int, 3> offset{0, 0, 0};
+  if (!at_side_) {
+    for (size_t d = 0; d < 3; ++d)
+      if (s.used[d]) offset[d] = c[d] < 0 ? -1 : c[d] >= s.n[d] / 2 ? 1 : 0;
+    const View& v = view_[size_t((offset[2] + 1) * 9 + (offset[1] + 1) * 3 + offset[0] + 1)];
+    const int i = v.scale[0] * c[0] + v.shift[0], j = v.scale[1] * c[1] + v.shift[1],
+              k = v.scale[2] * c[2] + v.shift[2];
+    for (int q = 0; q < Cons::count; ++q) {
+      const double* u = v.U + size_t(q) * cells_;
+      U[q] = v.finer ? mean_of_children(u, s, k, j, i) : u[s.at(k, j, i)];
+    }
+    return;
+  }
   bool turned[3] = {false, false, false};
   const double* constant = nullptr;
   for (int d = 2; d >= 0; --d) {
@@ -135,16 +182,21 @@ void LevelGhosts::prolong_to(const std::array<int, 3>& offset, const Mix& mix) {
           --below[size_t(d)], ++above[size_t(d)];
           slopes.set(d, coarse(below, mix).W, centre.W, coarse(above, mix).W);
         }
-        for_each_child(s, [&](int, const int(&at)[3], const int(&side)[3]) {
-          double U[Cons::count], W[Prim::stored];
+        const size_t here = s.at(k, j, i);
+        for (int first_child = 0; first_child < children_.count; first_child += Pack::size) {
+          Pack U[Cons::count], W[Prim::stored];
           if (slopes.any) {
-            slopes.child(centre.W, side, W);
+            slopes.children(centre.W, children_, first_child, W);
             mix.to_conserved(W, U);
           } else {
-            std::copy_n(centre.U, int(Cons::count), U);
+            for (int q = 0; q < Cons::count; ++q) U[q] = Pack(centre.U[q]);
           }
-          for (int q = 0; q < Cons::count; ++q) out[size_t(q) * cells_ + s.at(k + at[2], j + at[1], i + at[0])] = U[q];
-        });
+          for (int q = 0; q < Cons::count; ++q) {
+            double* to = out + size_t(q) * cells_ + here;
+            for (int l = 0; l < std::min(Pack::size, children_.count - first_child); ++l)
+              to[children_.cells[first_child + l]] = U[q][l];
+          }
+        }
       }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cfd/amr/patch.h"
+#include "common/math/pack.h"
 
 namespace bw::cfd {
 
@@ -26,6 +27,14 @@ inline double mean_of_children(const double* U, const BlockShape& s, int k, int 
 /// quarter of three such slopes is less than the value.
 inline double minmod(double a, double b) { return a * b <= 0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b; }
 
+/// The children of a cell in Morton order: the quarter of its width by which each is off the centre, and how many cells
+/// of its block's storage lie between it and the first. Zeros up to whole packs.
+struct Children {
+  int count = 0;
+  double off[3][8] = {};
+  size_t cells[8] = {};
+};
+
 /// Limited slopes of what is carried to finer cells: the variables before Prim::Pi (that one follows).
 struct CellSlopes {
   static constexpr int n = Prim::Pi;
@@ -36,6 +45,13 @@ struct CellSlopes {
       slope[d][q] = minmod(here[q] - below[q], above[q] - here[q]);
       any = any || slope[d][q] != 0;
     }
+  }
+  /// W of Pack::size children from `first` on.
+  void children(const double* W, const Children& all, int first, Pack (&out)[Prim::stored]) const {
+    const Pack x = Pack::load(all.off[0] + first), y = Pack::load(all.off[1] + first),
+               z = Pack::load(all.off[2] + first);
+    for (int q = 0; q < n; ++q)
+      out[q] = Pack(W[q]) + x * Pack(slope[0][q]) + y * Pack(slope[1][q]) + z * Pack(slope[2][q]);
   }
   /// W of the child at side[d] (-1, 1; 0 in unused directions) of a cell.
   void child(const double* W, const int (&side)[3], double (&out)[Prim::stored]) const {
@@ -61,6 +77,15 @@ void for_each_child(const BlockShape& s, const Visit& visit) {
     }
     if (exists) visit(number++, offset, side);
   }
+}
+inline Children children_of(const BlockShape& s) {
+  Children all;
+  for_each_child(s, [&](int c, const int(&at)[3], const int(&side)[3]) {
+    all.count = c + 1;
+    for (int d = 0; d < 3; ++d) all.off[d][c] = 0.25 * side[d];
+    all.cells[c] = s.at(at[2], at[1], at[0]);
+  });
+  return all;
 }
 inline int child_count(const BlockShape& s) { return 1 << (int(s.used[0]) + int(s.used[1]) + int(s.used[2])); }
 

@@ -5,7 +5,7 @@ import statistics
 import subprocess
 import sys
 
-from verification import fluid, reference, solid
+from verification import fluid, fluid_levels, reference, solid
 from verification.case import BUILD, ROOT, WORK, RunFailed, output, run
 
 from . import precision
@@ -216,6 +216,17 @@ def quiescent_share():
     return [row("quiescent_share", per_cell_step(rest, 128 ** 3) / per_cell_step(busy_run, 64 ** 3), "of a busy block")]
 
 
+def amr_overhead():
+    """A blast in air on 3 levels to 128^3: share of the step in ghosts and fluxes between levels, in looking and in changing the grid"""
+    text = fluid_levels.with_levels(fluid_levels.blast_text(128, 4e-4), 2, [128] * 3).replace("block = 8", "block = 16")
+    rows = []
+    for threads in THREADS:
+        summary = fields.summary(run(f"bench_levels_{threads}", text, threads=threads, only="fluid").directory, "fluid")
+        rows += [row("amr_overhead", summary["values"]["levels_share"], "of the step", threads),
+                 row("amr_rate", summary["rates"]["cell_updates_per_second"] / 1e6, "M cell-updates/s", threads)]
+    return rows
+
+
 def step_seconds(summary):
     """Seconds of the timer called "step", wherever it stands."""
     def walk(timers):
@@ -273,5 +284,5 @@ def exchange_200k_ms():
     return [row("exchange_200k_ms", values["full_ms"], "ms", 1, 2), row("exchange_200k_geometry_ms", values["geometry_ms"], "ms", 1, 2)]
 
 
-GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share],
+GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share, amr_overhead],
           "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS}

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blocks of several levels: the tree, ghosts across levels, fluxes at their faces, and the state when the grid changes.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstring>
 
 #include "cfd/adapt.h"
 #include "cfd/amr/levels.h"
+#include "cfd/amr/transfer.h"
 #include "cfd/output.h"
 #include "common/app/machine.h"
 #include "tests/unit/cfd/whole_flow.h"
@@ -79,9 +82,12 @@ TEST(Levels, UniformFlowStaysExact) {
   }
   EXPECT_GE(changes, 3);
   const size_t cells = size_t(f.m.forest.shape().cells());
+  double worst = 0;
   for (int b : f.all())
     for (int q = 0; q < Cons::count; ++q)
-      for (size_t c = 0; c < cells; ++c) ASSERT_NEAR(f.m.state.block(b, q)[c], U[q], 1e-13 * std::abs(U[q]) + 1e-15);
+      for (size_t c = 0; c < cells; ++c) worst = std::max(worst, std::abs(f.m.state.block(b, q)[c] - U[q]) / (std::abs(U[q]) + 1e-2));
+  testing::Test::RecordProperty("U_change", fmt::format("{:.3g}", worst));
+  EXPECT_LT(worst, 1e-13);
 }
 
 /// 200 steps of a burst with a grid that changes every second one: what is in the box stays in it.
@@ -97,8 +103,11 @@ void expect_kept(Flow& f, int steps) {
   const FluidSums after = f.sums();
   const Booked b = f.books.booked(f.m);
   EXPECT_EQ(b.floors, 0);
+  double worst = 0;
   for (int q : {int(Cons::arho1), int(Cons::arho2), int(Cons::rhoE)})
-    EXPECT_NEAR((after.U[q] + b.cleaned[q]) / before.U[q], 1, 1e-13) << q;
+    worst = std::max(worst, std::abs((after.U[q] + b.cleaned[q]) / before.U[q] - 1));
+  testing::Test::RecordProperty("mass_energy_change", fmt::format("{:.3g}", worst));
+  EXPECT_LT(worst, 1e-13);
   for (int d = 0; d < 3; ++d) {
     double sides = 0;
     for (int s = 0; s < 6; ++s) sides += (s % 2 ? 1 : -1) * b.side[s][Cons::mom + d];
@@ -152,6 +161,8 @@ velocity = [100, 30, -20]
     }
   }
   EXPECT_EQ(levels, 7);
+  testing::Test::RecordProperty("p_change", fmt::format("{:.3g}", worst_p));
+  testing::Test::RecordProperty("v_change", fmt::format("{:.3g}", worst_v));
   EXPECT_LT(worst_p, 1e-10);
   EXPECT_LT(worst_v, 1e-10);
 }
@@ -180,6 +191,34 @@ TEST(Levels, BurnReleasesExactlyItsEnergy) {
   EXPECT_LT(stored_energy(f.m), 1e-9 * stored);
 }
 
+/// The grid changes as told, whatever the rules want.
+void change(Flow& f, int8_t wish) {
+  exchange_state(f.m.forest, f.m.state);
+  const auto origins = f.m.forest.adapt(std::vector<int8_t>(size_t(f.m.forest.local_blocks()), wish));
+  transfer_state(f.m.forest, {f.m.setup.medium, f.m.setup.boundary, &*f.m.setup.burn}, origins, f.m.state);
+  f.m.forest.settle();
+  f.m.state.fit(f.m.forest);
+  inspect(f.m, f.all());
+  f.books.fit(f.m);
+  f.books.refresh(f.m, f.all());
+}
+
+TEST(Levels, EnergyStillStoredIsCarriedOver) {
+  Flow f(charge_with_levels);
+  while (f.m.state.t < 0.3 * f.m.setup.burn->t_all) f.steps(1);
+  const auto total = [&] { return f.sums().U[Cons::rhoE] + stored_energy(f.m); };
+  const double before = total(), stored = stored_energy(f.m);
+  ASSERT_GT(stored, 0.1 * before);
+  ASSERT_LT(stored, 0.9 * before);
+  for (const int8_t wish : {-1, 1, -1, -1, 1, 1}) {
+    const int64_t blocks = f.m.forest.global_blocks();
+    change(f, wish);
+    EXPECT_NE(f.m.forest.global_blocks(), blocks);
+    EXPECT_NEAR(total(), before, 1e-13 * before);
+  }
+  EXPECT_GT(std::abs(stored_energy(f.m) - stored), 1e-6 * stored);  // it is not the same: the front is sampled at other places
+}
+
 TEST(Levels, EqualForAnyNumberOfThreads) {
   use_threads(1);
   Flow one(charge_with_levels);
@@ -202,7 +241,9 @@ TEST(Levels, LinearProfilesGoThroughALevelJumpUnchanged) {  // ghosts of second 
   const double a[3] = {1, 2, 3}, b = 2.5;
   for (int d = 0; d < 3; ++d) {
     const double below[3] = {b - a[d], 0, 0}, above[3] = {b + a[d], 0, 0};
-    EXPECT_EQ(refine_indicator(1, below, b, above), 0);
+    EXPECT_LT(refine_indicator(1, below, b, above), 1e-28);
+    const double jump[3] = {4 * b, 0, 0};
+    EXPECT_GT(refine_indicator(1, below, b, jump), 0.05);
   }
   Flow f(grid("[32, 16, 16]", "[1, 0.5, 0.5]") + amr(1, "block = 8\nfollow_flow = false\n" + fine_ball(1)) + air_flow);
   const auto p_at = [](const Vec3& x) { return 1e5 * (1 + 0.3 * x.x + 0.2 * x.y - 0.1 * x.z); };
