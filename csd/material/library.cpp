@@ -12,9 +12,8 @@
 //   elastic constants: handbook values; OFHC copper as usual with [JC83]. 7075: density of [S96], specific heat and
 //   the end of melting from handbooks
 // Flow stresses of OFHC copper, Armco iron (but m) and tungsten alloy and constants of damage of OFHC copper and 4340
-// agree with the transcriptions in Uintah's inputs (MPM/MaterialData). [ZA87] and the damage of Armco iron have not been
-// compared with a second source.
-// [JC83] took 0.55 for Armco iron's m; 1.44, which codes carry too, is nickel's.
+// agree with the transcriptions in Uintah's inputs (MPM/MaterialData). [ZA87] and the damage of Armco iron have not
+// been compared with a second source. [JC83] took 0.55 for Armco iron's m; 1.44, which codes carry too, is nickel's.
 #include "csd/material/material_case.h"
 
 namespace bw::csd {
