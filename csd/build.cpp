@@ -85,6 +85,7 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   if (cs.relaxation) ph.relaxation.emplace(*cs.relaxation, s.x.size());
   if (cs.mass_scaling) ph.mass_scaling.emplace(*cs.mass_scaling, s);
   if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t, failure_data(cs));
+  if (cs.contact) ph.contact.emplace(*cs.contact);
   if (cs.rigid) {
     std::vector<std::string> names;
     for (const BodyCase& body : cs.bodies) names.push_back(body.name);

@@ -12,6 +12,7 @@
 #include "csd/element/filter.h"
 #include "csd/energy.h"
 #include "csd/fracture/fracture.h"
+#include "csd/fragments/contact.h"
 #include "csd/fragments/rigid.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/list.h"
@@ -121,6 +122,7 @@ struct SolidCase {
   TimeStepCase time_step;
   std::optional<FractureInput> fracture;
   std::optional<RigidInput> rigid;
+  std::optional<ContactInput> contact;
   std::vector<InitialVelocityCase> velocities;
   std::vector<LoadCase> loads;
   std::vector<ConditionCase> conditions;
@@ -143,6 +145,7 @@ struct SolidCase {
     k.table("time_step", time_step, "choice of the time step");
     k.table("fracture", fracture, "cracks by splitting nodes; absent: none");
     k.table("rigid", rigid, "fragments and bodies that move as rigid ones; absent: none");
+    k.table("contact", contact, "lips of cracks, fragments and bodies meet each other; absent: they pass through");
     k.tables("velocity", velocities, "initial velocity of a region, in place of its body's");
     k.tables("load", loads, "a load");
     k.tables("condition", conditions, "a condition on nodes");

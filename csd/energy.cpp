@@ -50,6 +50,7 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
     if (std::holds_alternative<Spring>(condition)) r.springs += work;
     if (std::holds_alternative<Damping>(condition)) r.damping += work;
   }
+  if (ph.contact) r.conditions += ph.contact->work(), r.contact += ph.contact->work();
   if (ph.relaxation) r.conditions += ph.relaxation->reaction.work, r.damping += ph.relaxation->reaction.work;
   if (ph.mass_scaling) r.mass_scaling = ph.mass_scaling->added_energy();
   r.residual = kinetic_product(s, s.dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks +

@@ -38,7 +38,7 @@ struct EnergyRow {
   double kinetic = 0, elastic = 0, plastic = 0, filter = 0, collapse = 0, viscosity = 0, external = 0, conditions = 0,
          cracks = 0, rigidization = 0, left = 0, mass_scaling = 0, residual = 0;
   double heat = 0;                               ///< part of plastic
-  double contact = 0, springs = 0, damping = 0;  ///< of which conditions: rigid walls, springs, drag
+  double contact = 0, springs = 0, damping = 0;  ///< of which conditions: rigid walls and contact, springs, drag
   double eqps_max = 0;                           ///< of all integration points
   double temperature_max = 0;                    ///< K, of all points; 0: no material has a temperature
 };

@@ -288,6 +288,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));
     sum.counts.emplace_back("fragments", double(m.physics.cracks->fragments(m).count()));
   }
+  if (m.physics.contact) sum.counts.emplace_back("contact_impulses", double(m.physics.contact->impulses()));
   if (const auto& rigid = m.physics.rigid) {
     sum.energies.emplace_back("rigidization", energy_.rigidization);
     sum.counts.emplace_back("rigid_fragments", double(rigid->bodies().size()));

@@ -9,6 +9,7 @@
 #include "csd/element/filter.h"
 #include "csd/element/time_step.h"
 #include "csd/energy.h"
+#include "csd/fragments/contact.h"
 #include "csd/fragments/rigid.h"
 #include "csd/load/conditions/list.h"
 #include "csd/load/loads.h"
@@ -29,6 +30,7 @@ struct Physics {
   std::optional<MassScaling> mass_scaling;
   std::optional<Cracks> cracks;
   std::optional<Rigid> rigid;
+  std::optional<Contact> contact;
   EnergyBooks energy;
 };
 

@@ -74,6 +74,7 @@ void step(Model& m, double dt) {
   kick(s, 0.5 * dt);  // eq (14)
   if (rigid) rigid->kick(s, 0.5 * dt);
   before_drift(m, dt);
+  if (m.physics.contact) m.physics.contact->act(m, dt);
   if (rigid) rigid->meet_walls(m.physics.conditions, s, dt);
   book_half_work(m, dt);
   drift(s, dt);

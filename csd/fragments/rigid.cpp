@@ -135,7 +135,9 @@ void Rigid::renew_marks(Model& m) {
   Elements& el = m.physics.elements;
   State& s = m.state;
   s.rigid = Field<double, SlotId>(size_t(el.blocks.slot_count()));
-  is_rigid_.assign(size_t(m.mesh.node_count()), 0);
+  is_rigid_.assign(size_t(m.mesh.node_count()), 0), body_at_.assign(is_rigid_.size(), -1);
+  for (size_t b = 0; b < bodies_.size(); ++b)
+    for (const NodeId n : bodies_[b].nodes()) body_at_[size_t(n)] = int32_t(b);
   elements_ = 0;
   for (const auto& elems : elems_) {
     elements_ += int64_t(elems.size());

@@ -92,6 +92,8 @@ class Rigid {
   std::vector<RigidBody>& bodies() { return bodies_; }
   /// [node] 1: of a rigid body; later nodes are not.
   const std::vector<char>& is_rigid_node() const { return is_rigid_; }
+  /// Place of a node's body in bodies(), -1: it has none.
+  int32_t body_at(NodeId n) const { return size_t(n) < body_at_.size() ? body_at_[size_t(n)] : -1; }
   bool is_rigid(NodeId n) const { return size_t(n) < is_rigid_.size() && is_rigid_[size_t(n)]; }
   int64_t elements() const { return elements_; }  ///< that are rigid now
   /// What left the box, in all; null if there is none.
@@ -140,6 +142,7 @@ class Rigid {
   std::vector<RigidBody> bodies_;           // in the order in which they became
   std::vector<std::vector<ElemId>> elems_;  // [body]
   std::vector<char> is_rigid_;              // [node]
+  std::vector<int32_t> body_at_;            // [node]
   std::vector<Kept> kept_;
   std::vector<Record> records_;
   Left left_;

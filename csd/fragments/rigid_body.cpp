@@ -65,6 +65,10 @@ Vec3 RigidBody::response(const Vec3& at, const Vec3& from, const Vec3& impulse) 
   return impulse / mass_ + cross(turning, at);
 }
 
+Vec3 RigidBody::acceleration_at(const Vec3& arm) const {
+  return F_ / mass_ + cross(turned_ * (inverse_inertia_ * (transpose(turned_) * T_)), arm);
+}
+
 void RigidBody::stop() {
   is_stopped_ = true;
   v_ = L_ = omega_ = F_ = T_ = {};

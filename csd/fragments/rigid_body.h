@@ -42,6 +42,7 @@ class RigidBody {
   Vec3 arm(size_t i) const { return turned_ * arm_[i]; }  ///< m, of a node, in space
   Vec3 velocity_at(const Vec3& arm) const { return v_ + cross(omega_, arm); }
   double kinetic_energy() const { return 0.5 * mass_ * dot(v_, v_) + 0.5 * dot(omega_, L_); }  ///< J
+  Vec3 acceleration_at(const Vec3& arm) const;  ///< m/s^2, by the forces that were taken
   /// Change of velocity at `at` by an impulse at `from` (arms in space) per impulse.
   Vec3 response(const Vec3& at, const Vec3& from, const Vec3& impulse) const;
 

@@ -55,6 +55,14 @@ def t21_rigid():
     yield at_most("kinetic energy: change of the rigid one", np.abs(rigid["kinetic_energy"] / rigid["kinetic_energy"][0] - 1).max(), 1e-12)
 
 
+@case("CT", quick=True)
+def contact():
+    """Contact: collisions of rigid and deformable bodies, a cloud of 200 cubes between walls, a plate that is hit, lips of cracks"""
+    yield from unit_rows("csd", "Contact*.*", {"left_of_the_speed_40": 0.02, "left_of_the_speed_80": 0.01, "node_depth_over_side": 0.005,
+                                               "edge_depth_over_side": 0.15, "energy_rise": 1e-12, "momentum_off_the_walls_impulse": 1e-13,
+                                               "residual_over_kinetic": 5e-3, "rigid_residual_over_kinetic": 5e-3, "depth_with": 1e-4})
+
+
 def mott_sample(mu, number, seed):
     return mu * np.random.default_rng(seed).exponential(size=number) ** 2
 

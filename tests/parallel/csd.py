@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """csd on 1 to 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | pieces | rigid | bar | loaded | static | coupled | errors ...]"""
+    csd.py BUILD_FOLDER [cracks | pieces | rigid | contact | bar | loaded | static | coupled | errors ...]"""
 import os
 import pathlib
 import sys
@@ -104,6 +104,20 @@ def rigid():
     return faults + ([] if min(table["rigid_fragments"][-1], -table["contact_work"][-1], table["left_fragments"][-1]) > 0 else ["rigid: nothing becomes rigid, meets the wall or leaves"])
 
 
+CONTACT = (CRACKS.replace('"26 us"', '"34 us"') + '[solid.contact]\nrestitution = 0.5\nfriction = 0.2\n[solid.rigid]\nelements = 60\n'
+           + '[[solid.body]]\nname = "shot"\nmesh = {kind = "box", lower = ["-68 mm", "-4 mm", "-4 mm"], upper = ["-62.5 mm", "4 mm", "4 mm"], cells = [3, 4, 4]}\n'
+           + 'velocity = ["300 m/s", "20 m/s", 0.0]\n' + STEEL)
+
+
+def contact():
+    faults, directory = compare("contact", CONTACT, LAYOUTS)
+    table = history(directory / "solid_history.csv")
+    given, work, external = summary(directory, "solid")["counts"]["contact_impulses"], table["contact_work"], table["external_work"][-1]
+    print(f"contact: {given:.0f} impulses, work {work[-1]:.4g} J, residual {abs(table['energy_residual']).max():.3g} J of {external:.4g} J")
+    return (faults + ([] if given > 100 and work[-1] < 0 and max(work[1:] - work[:-1]) <= 1e-9 * abs(work[-1]) else ["contact: nothing meets, or energy is made"])
+            + ([] if -work[-1] < 0.01 * external else ["contact: fragments that fly apart hold each other"]))
+
+
 def pieces():
     faults, directory = compare("pieces", PIECES, LAYOUTS)
     rows = history(directory / "pieces.csv")
@@ -151,7 +165,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in groups[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)
