@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfd/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -79,6 +81,9 @@ void Sweep::select(const State& s, double dt) {
                          : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end) ? metal
                          : finest                                                                ? near
                                                                                                  : far;
+      if (near_[size_t(b)] == far && !finest && walls_->map().holds_any(first, end))
+        throw PhysicsError(fmt::format("a wall reached a block of level {}, not the finest, at t = {:.9g} s: raise fluid.amr.wall_cells",
+                                       forest_.level(b), s.t));
       if (near_[size_t(b)] == near) active_.push_back(b);
       if (near_[size_t(b)] != far) continue;
     }

@@ -74,13 +74,21 @@ class Criteria {
   }
 
  private:
-  bool near_wall(Index3 lower, Index3 upper) const {
+  /// Is there anything but open fluid, or anything but metal, in these cells, around periodic sides too?
+  bool near_wall(const Index3& lower, const Index3& upper) const {
     const CutMap& map = in_.walls->map();
-    for (size_t d = 0; d < 3; ++d) {
-      lower[d] = std::max(lower[d], 0);
-      upper[d] = std::min(upper[d], map.lattice().n[d]);
+    for (int o = 0; o < 27; ++o) {
+      const Index3 wrap{o % 3 - 1, o / 3 % 3 - 1, o / 9 - 1};
+      Index3 first, end;
+      bool inside = true;
+      for (size_t d = 0; d < 3; ++d) {
+        const int n = map.lattice().n[d];
+        first[d] = std::max(lower[d] + wrap[d] * n, 0), end[d] = std::min(upper[d] + wrap[d] * n, n);
+        inside = inside && (wrap[d] == 0 || in_.forest.size().periodic[d]) && first[d] < end[d];
+      }
+      if (inside && map.touches(first, end) && !map.all_blocked(first, end)) return true;
     }
-    return map.touches(lower, upper) && !map.all_blocked(lower, upper);
+    return false;
   }
   bool reaches(const RegionShape& shape, int b) const {
     const Vec3 half = 0.5 * in_.forest.extent(b), centre = in_.forest.lower(b) + half;

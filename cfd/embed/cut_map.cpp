@@ -68,6 +68,16 @@ bool CutMap::touches(Index3 lower, Index3 upper) const {
   return false;
 }
 
+bool CutMap::holds_any(const Index3& lower, const Index3& upper) const {
+  if (!touches(lower, upper)) return false;
+  Index3 c;
+  for (c[2] = lower[2]; c[2] < upper[2]; ++c[2])
+    for (c[1] = lower[1]; c[1] < upper[1]; ++c[1])
+      for (c[0] = lower[0]; c[0] < upper[0]; ++c[0])
+        if (flags(c) != 0) return true;
+  return false;
+}
+
 bool CutMap::all_blocked(const Index3& lower, const Index3& upper) const {
   Index3 c;
   for (c[2] = lower[2]; c[2] < upper[2]; ++c[2])

@@ -78,6 +78,8 @@ class CutMap {
   /// May anything in cells [lower, upper) differ from open fluid? Is all of it in metal?
   bool touches(Index3 lower, Index3 upper) const;
   bool all_blocked(const Index3& lower, const Index3& upper) const;
+  /// Is a cell in [lower, upper) in metal or a link of one cut? Looks at each where touches().
+  bool holds_any(const Index3& lower, const Index3& upper) const;
   size_t link_count() const { return links_.size(); }
 
   // --- building (scan.cpp, motion.cpp)
