@@ -87,9 +87,10 @@ double solve(std::span<Meeting> meetings, State& s, const Supports& held, double
     is_rigid = is_rigid && m.body[0] && m.body[1];
     fastest = std::max(fastest, norm(m.before));
   }
-  const bool is_exact = is_rigid && meetings.size() <= 64;  // what is lacking otherwise the next step sees
-  const int most = is_exact ? 500 : 200;
-  const double enough = (is_exact ? 1e-14 : 1e-6) * fastest;
+  // what a large island lacks the next step sees
+  const bool is_exact = is_rigid && meetings.size() <= 64, is_large = meetings.size() > 2000;
+  const int most = is_exact ? 500 : is_large ? 20 : 200;
+  const double enough = (is_exact ? 1e-14 : is_large ? 1e-4 : 1e-6) * fastest;
   for (int k = 0; k < most; ++k)
     if (sweep(meetings, s, held, friction) <= enough) break;
   // the work in the frame of supports is a quadratic of a common factor of all impulses
