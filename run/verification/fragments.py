@@ -55,7 +55,7 @@ def t21_rigid():
     yield at_most("kinetic energy: change of the rigid one", np.abs(rigid["kinetic_energy"] / rigid["kinetic_energy"][0] - 1).max(), 1e-12)
 
 
-@case("CT", quick=True)
+@case("CT")
 def contact():
     """Contact: collisions of rigid and deformable bodies, a cloud of 200 cubes between walls, a plate that is hit, lips of cracks"""
     yield from unit_rows("csd", "Contact*.*", {"left_of_the_speed_40": 0.02, "left_of_the_speed_80": 0.01, "node_depth_over_side": 0.005,
