@@ -64,7 +64,13 @@ inline bool any(Mask m) {
 #endif
 }
 inline bool all(Mask m) { return !any(!m); }
-inline Pack select(Mask m, Pack a, Pack b) { return m.v ? a.v : b.v; }
+inline Pack select(Mask m, Pack a, Pack b) {
+#if defined(__AVX__) && !defined(__AVX512F__)
+  return __builtin_ia32_blendvpd256(b.v, a.v, Pack::V(m.v));  // a mask's lanes are all ones or zeros: no test for zero
+#else
+  return m.v ? a.v : b.v;
+#endif
+}
 inline Pack min(Pack a, Pack b) { return a.v < b.v ? a.v : b.v; }
 inline Pack max(Pack a, Pack b) { return a.v > b.v ? a.v : b.v; }
 inline Pack abs(Pack a) { return max(a, -a); }
@@ -140,6 +146,15 @@ inline double min(double a, double b) { return a < b ? a : b; }
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double abs(double a) { return a < 0 ? -a : a; }
 using std::sqrt;
+/// T = double or wider.
+template <class T> T load(const double* p) {
+  if constexpr (sizeof(T) == sizeof(double)) return *p;
+  else return T::load(p);
+}
+template <class T> void store(double* p, T a) {
+  if constexpr (sizeof(T) == sizeof(double)) *p = a;
+  else a.store(p);
+}
 
 namespace detail {
 typedef int64_t I1 __attribute__((vector_size(8)));
@@ -239,5 +254,24 @@ inline double exp(double x) { return detail::exp<detail::D1, detail::I1>(detail:
 /// x > 0 and normal.
 inline Pack log(Pack x) { return detail::log<Pack::V, Mask::V>(x.v); }
 inline double log(double x) { return detail::log<detail::D1, detail::I1>(detail::D1{x})[0]; }
+
+// Short ones, for guesses that a better step follows.
+namespace detail {
+template <class V, class I> V short_log(V x) {
+  const I b = I(x), sqrt_half = I{} + 0x3fe6a09e667f3bcd, e = (b - sqrt_half) >> 52;
+  const V t = V(b - (e << 52)) - 1.0;  // in [sqrt(1/2), sqrt(2)) - 1
+  const V shift = 0x1.8p52 - V{}, k = V(e + I(shift)) - shift;
+  return k * 0.69314718055994530942 + t * (0.99927381 + t * (-0.50249902 + t * (0.35948028 - t * 0.22879209)));
+}
+template <class V> V bits_of_exp(V x) { return x * (0x1p32 / 0.6931471805599453) + (1023 - 0.043) * 0x1p32; }
+}  // namespace detail
+/// ln x to within 1e-4; x > 0 and normal.
+inline Pack short_log(Pack x) { return detail::short_log<Pack::V, Mask::V>(x.v); }
+inline double short_log(double x) { return detail::short_log<detail::D1, detail::I1>(detail::D1{x})[0]; }
+/// e^x to within 4 %; |x| < 700.
+inline Pack rough_exp(Pack x) { return detail::number_as_bits<Pack::V, Mask::V>(detail::bits_of_exp(x.v)); }
+inline double rough_exp(double x) {
+  return detail::number_as_bits<detail::D1, detail::I1>(detail::bits_of_exp(detail::D1{x}))[0];
+}
 
 }  // namespace bw

@@ -5,6 +5,7 @@
 #pragma once
 #include <bit>
 
+#include "common/math/two.h"
 #include "csd/element/hex.h"
 #include "csd/material/concept.h"
 
@@ -110,15 +111,18 @@ template <class T, class M>
 [[gnu::noinline, gnu::flatten]] static void flow(const M& material, const Columns<T>& g, unsigned flowing,
                                                  double* history, double per_dt, Points<T>& p) {
   constexpr int stride = M::components * lanes;
+  constexpr int together = M::points_together;
+  using Side = SideBySide<T, stride, together>;
+  using S = typename Side::Type;
   T keep[8], add[8];
-  for (unsigned left = flowing; left; left &= left - 1) {
-    const int i = std::countr_zero(left);
-    const T iso = p.root[i] * p.root[i], t = p.third_trace[i];
+  for (int i = 0; i < 8; i += together) {
+    if (!(flowing >> i & ((1u << together) - 1))) continue;
+    const S J_squared = Side::join(p.J_squared + i), root = Side::join(p.root + i), iso = root * root;
+    const S t = Side::join(p.third_trace + i), dev2 = Side::join(p.dev2 + i);
     // det dev b^e from det b^e and the other invariants
-    const T dev_det = p.J_squared[i] - t * (t * t - T(0.5) * p.dev2[i]);
-    const Trial<T> trial{p.J_squared[i], iso, t, p.dev2[i], dev_det};
-    const Response<T> r = material.respond(trial, history + i * stride, per_dt);
-    p.k[i] = r.k, keep[i] = r.keep, add[i] = r.add;
+    const Trial<S> trial{J_squared, iso, t, dev2, J_squared - t * (t * t - S(0.5) * dev2)};
+    const Response<S> r = material.respond(trial, history + i * stride, per_dt);
+    Side::part(r.k, p.k + i), Side::part(r.keep, keep + i), Side::part(r.add, add + i);
   }
   for (unsigned left = flowing; left; left &= left - 1) {
     const int i = std::countr_zero(left);

@@ -13,6 +13,8 @@ namespace bw::csd {
 ///   M::components      numbers of history per point: the six of A (point.h) first, then the model's own, which start
 ///                      as 0
 ///   M::plastic         whether component 6 is eqps
+///   M::points_together of plastic ones: points whose flow is solved side by side (two.h), 1, 2 or 4: more where the
+///                      solution is a long chain of dependent steps
 ///   yields(iso, dev2, history)  of plastic ones: lanes whose trial (point.h) is beyond the yield surface
 ///   respond(trial, history, per_dt)  where a lane yields, the end of the step; commits the model's own history (from
 ///                      component 6 on) but not A. per_dt [1/s]: one over the step; 0: no time passes, nothing has a

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/math/pack.h"
+#include "common/math/two.h"
 
 namespace bw::csd {
 
@@ -30,6 +30,11 @@ struct Curve {
       r.value.set(l, value), r.slope.set(l, slope);
     }
     return r;
+  }
+  template <class T, int stride>
+  ValueSlope<Two<T, stride>> at(Two<T, stride> a) const {
+    const ValueSlope<T> first = at(a.a), second = at(a.b);
+    return {{first.value, second.value}, {first.slope, second.slope}};
   }
   /// Integral from the first point to a.
   double integral(double a) const {

@@ -13,6 +13,7 @@ struct J2 : Elastic {
   static constexpr auto name = "j2";
   static constexpr int components = 7;  // A, eqps
   static constexpr bool plastic = true;
+  static constexpr int points_together = 2;
   Flow flow;
   Heat heat;
 

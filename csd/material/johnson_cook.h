@@ -3,6 +3,7 @@
 // in [0, 1]; nothing is left at the melting temperature T_m.
 #pragma once
 #include "common/math/units.h"
+#include "csd/material/curve.h"
 #include "csd/material/rate_j2.h"
 
 namespace bw::csd {
@@ -38,54 +39,84 @@ struct JohnsonCook {
     template <class Lanes>
     Step increment(T q, T stiffness, T eqps, T rest, double per_dt, Lanes yields) const {
       const T most = (q - rest) / stiffness;  // the flow stress is at least that at rest
-      const auto large = most > T(small) * eqps;
+      const auto virgin = most > T(4) * eqps;
+      const auto large = yields & !virgin & (most > T(small) * eqps);
+      const bool any_large = any(large);
       const T fixed = T(law.A) * softened(), part = rest - fixed, per_eqps = T(1) / max(eqps, T(1e-30));
-      const T ratio_per_x = T(per_dt / law.rate_0), rated = T(law.C) * rest;
-      // first guess: a step of Newton from `most` with a rough logarithm
-      const T over = rated * max(rough_log(max(most * ratio_per_x, T(1))), T(0));
-      T lower(0), upper = most, slope(0);
-      T x = max(most - over * most / (stiffness * most + rated), T(1.0 / 16) * most);
-      auto active = yields & !large;  // lanes stop one by one
+      const T x_per_ratio(law.rate_0 / max(per_dt, 1e-30)), ratio_per_x(max(per_dt, 1e-30) / law.rate_0);
+      const auto hardened = [&](T x) -> ValueSlope<T> {
+        const T xi = x * per_eqps, near = part * power_near_one(xi, law.n);
+        const ValueSlope<T> r{near, T(law.n) * near * per_eqps * (T(1) - xi)};
+        if (!any_large) [[likely]]
+          return r;
+        const T far = part * exp(T(law.n) * log(T(1) + max(xi, T(0))));
+        return {select(large, far, r.value), select(large, T(law.n) * far / (eqps + x), r.slope)};
+      };
+      T lower(0), upper = most, slope(0), x = guess(q, stiffness, rest, part * per_eqps, most, ratio_per_x, x_per_ratio);
+      auto active = yields & !virgin;  // lanes stop one by one
       for (int i = 0; i < 100 && any(active); ++i) {
-        const T xi = x * per_eqps, grown = part * power_near_one(xi, law.n), ratio = x * ratio_per_x;
-        const T factor = T(1) + T(law.C) * log(max(ratio, T(1)));
+        const auto [grown, rising] = hardened(x);
+        const T ratio = x * ratio_per_x, factor = T(1) + T(law.C) * log(max(ratio, T(1)));
         const T g = q - stiffness * x - (fixed + grown) * factor;
         const auto below = g > T(0);
         lower = select(below, x, lower);
         upper = select(below, upper, x);
         // Halley: g' = -a/x, and g'' = b/x^2 but for small terms, as the rate's part of g is -b ln x
-        const T by_eqps = T(law.n) * grown * per_eqps * (T(1) - xi) * factor;
+        const T by_eqps = rising * factor;
         const T b = select(ratio > T(1), T(law.C) * (fixed + grown), T(0)), a = (stiffness + by_eqps) * x + b;
         const T halley = x + T(2) * g * a * x / (T(2) * a * a - g * b);
         const T middle = select(lower > T(0), T(0.5) * (lower + upper), T(1.0 / 16) * upper);
         const T next = select((halley >= lower) & (halley <= upper), halley, middle);
-        const auto moves = abs(next - x) > T(4e-3) * x;  // the step cubes it
+        const auto moves = abs(next - x) > select(large, T(4e-4), T(4e-3)) * x;  // the step cubes it, nearly if large
         slope = select(active, by_eqps, slope);
         x = select(active, next, x);
         active = active & moves;
       }
-      const T rest_after = fixed + part * power_near_one(x * per_eqps, law.n);
-      if (!any(yields & large)) [[likely]]
+      const T rest_after = fixed + hardened(x).value;
+      if (!any(yields & virgin)) [[likely]]
         return {{x, slope}, rest_after};
-      const auto step = increment_by_newton(*this, q, stiffness, eqps, rest, per_dt, yields & large);
-      return {{select(large, step.eqps, x), select(large, step.slope, slope)},
-              select(large, at_rest(eqps + step.eqps), rest_after)};
+      const auto step = increment_by_newton(*this, q, stiffness, eqps, rest, per_dt, yields & virgin);
+      return {{select(virgin, step.eqps, x), select(virgin, step.slope, slope)},
+              select(virgin, at_rest(eqps + step.eqps), rest_after)};
     }
-    /// A flow stress at rest, after heating to a temperature.
+
+    /// At another, higher temperature.
     template <class Lanes>
-    T heated(T rest, T temperature, Lanes yields) const {
+    Hot heated(T temperature, Lanes yields) const {
       const T to = law.homologous(temperature), xi = (to - star) / max(star, T(1e-30));
       const auto large = xi > T(small);
-      T softening_after = min(softening * power_near_one(xi, law.m), T(1));
+      T after = min(softening * power_near_one(xi, law.m), T(1));
       if (any(yields & large)) [[unlikely]]
-        softening_after = select(large, law.softening(to), softening_after);
-      return rest * (T(1) - softening_after) / max(softened(), T(1e-30));
+        after = select(large, law.power_of(to), after);
+      return {law, to, after};
+    }
+
+   private:
+    /// Within 4e-3 where hardening is nearly linear: stiff x + rated ln(ratio) = over. Newton's method for y = ln(ratio),
+    /// where it comes down from a bound without overshoot, then one better step for x.
+    T guess(T q, T stiffness, T rest, T part_per_eqps, T most, T ratio_per_x, T x_per_ratio) const {
+      const T rated = T(law.C) * rest, over = q - rest, stiff = stiffness + T(law.n) * part_per_eqps;
+      const T per_rated = T(1) / max(rated, T(1e-30)), stiff_part = stiff * x_per_ratio * per_rated, z = over * per_rated;
+      T y = min(short_log(max(over / stiff * ratio_per_x, T(1))), z);
+      for (int i = 0; i < 3; ++i) {
+        const T e = stiff_part * rough_exp(y);
+        y -= (e + y - z) / (e + T(1));
+      }
+      const T x = min(rough_exp(max(y, T(0))) * x_per_ratio, most), a = stiff * x;
+      const T b = select(x * ratio_per_x > T(1), rated, T(0));
+      const T better = x + x * (over - a - b * short_log(max(x * ratio_per_x, T(1)))) / (a + b);
+      return max(min(better, most), T(1.0 / 16) * x);
     }
   };
   template <class T>
   Hot<T> at(T temperature) const {
     const T star = homologous(temperature);
-    return {*this, star, softening(star)};
+    return {*this, star, power_of(star)};
+  }
+  /// The same, with T*^m known.
+  template <class T>
+  Hot<T> at(T temperature, T softening) const {
+    return {*this, homologous(temperature), softening};
   }
 
   template <class K>
@@ -115,22 +146,13 @@ struct JohnsonCook {
     return min(max((temperature - T(T_room)) * T(1 / (T_melt - T_room)), T(0)), T(1));
   }
   template <class T>
-  T softening(T star) const {
+  T power_of(T star) const {  // T*^m
     if (m == 1) return star;
     return select(star > T(0), exp(T(m) * log(max(star, T(1e-30)))), T(0));
   }
   template <class T>
   T power(T eqps) const {
     return exp(T(n) * log(max(eqps, T(1e-30))));
-  }
-  /// ln to within 0.03, from the bits.
-  static Pack rough_log(Pack a) { return from_bits(Pack(bw::detail::bits_as_number<Pack::V, Mask::V>(a.v))); }
-  static double rough_log(double a) {
-    return from_bits(bw::detail::bits_as_number<bw::detail::D1, bw::detail::I1>(bw::detail::D1{a})[0]);
-  }
-  template <class T>
-  static T from_bits(T n) {
-    return T(0.6931471805599453) * (n * T(0x1p-32) - T(1023 - 0.043));
   }
   /// (1 + xi)^a for |xi| <= small, to 1e-12.
   template <class T>

@@ -12,17 +12,7 @@
 
 namespace bw::csd {
 
-/// T = double or Pack; rows of the history are `lanes` apart.
-template <class T>
-T load(const double* p) {
-  if constexpr (sizeof(T) == sizeof(double))
-    return *p;
-  else
-    return T::load(p);
-}
-inline void store(double* p, double a) { *p = a; }
-inline void store(double* p, Pack a) { a.store(p); }
-
+// T = double, Pack or Two; rows of the history are `lanes` apart.
 template <class T>
 Sym<T> load_sym(const double* p) {
   return {load<T>(p),
