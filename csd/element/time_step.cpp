@@ -40,11 +40,12 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
 
 namespace {
 
-/// Bound over centroid part, for the elements of a block.
+/// Bound over centroid part, for the elements of a block; returns the largest relative change.
 template <class M>
-[[gnu::flatten]] void block_distortion(const Elements& el, const M& material, const double* history, int block,
+[[gnu::flatten]] double block_distortion(const Elements& el, const M& material, const double* history, int block,
                                        const Aligned<float>& masses, const State& s,
                                        Field<double, SlotId>& distortion) {
+  Pack change(0);
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
     Pack mass[8];
@@ -54,17 +55,22 @@ template <class M>
     const Pack sigma = material.volumetric.mean_stress(volume / V0);
     const Corners<Pack> x = gather(s.x.data(), el.blocks.nodes_of(block) + l);
     const Pack bound = omega2_bound<Pack>(material, x, V0, mass, sigma, history + l);
-    (bound / Pack::load(&s.omega2[slot])).store(&distortion[slot]);
+    const Pack now = bound / Pack::load(&s.omega2[slot]), before = Pack::load(&distortion[slot]);
+    change = max(abs(now - before) / before, change);
+    now.store(&distortion[slot]);
   }
+  double largest = 0;
+  for (int i = 0; i < Pack::size; ++i) largest = std::fmax(largest, change[i]);
+  return largest;
 }
 
-void renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<float>& masses,
+double renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<float>& masses,
                       Field<double, SlotId>& distortion) {
-  std::visit(
+  return std::visit(
       [&]<class M>(const M& material) {
         const size_t in_body = size_t(el.blocks.row_of(body, block));
         const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
-        block_distortion(el, material, history, block, masses, s, distortion);
+        return block_distortion(el, material, history, block, masses, s, distortion);
       },
       el.materials[size_t(body)]);
 }
@@ -105,15 +111,28 @@ BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int
 
 }  // namespace
 
-void TimeStep::refresh(const Elements& el, const State& s, Which which) {
+double TimeStep::refresh(const Elements& el, const State& s, Which which) {
   if (which == Which::all) share_masses(el, s);
+  std::vector<double> change(size_t(el.blocks.block_count()), 0.0);
   for_blocks(el.blocks, [&](int block, int body) {
     if (which != Which::all) {
       const BlockState now = state_of(s, distortion_, block);
       if (!now.collapsed && (which == Which::collapsed || now.omega2 < stiff_part * omega2_)) return;
     }
-    renew_distortion(el, s, block, body, mass_, distortion_);
+    change[size_t(block)] = renew_distortion(el, s, block, body, mass_, distortion_);
   });
+  double largest = 0;
+  for (double c : change) largest = std::fmax(largest, c);
+  return el.ranks ? el.ranks->comm().max(largest) : largest;
+}
+
+void TimeStep::refresh_all(const Elements& el, const State& s) {
+  const bool settled = !stale_ && refreshes_ >= settling;
+  const double change = refresh(el, s, settled && refreshes_ % whole_refresh != 0 ? Which::stiff : Which::all);
+  interval_ = settled && change < calm ? std::min(2 * interval_, most_steps) : refresh_steps;
+  refreshes_ = stale_ ? 1 : refreshes_ + 1;
+  refreshed_at_ = s.step;
+  stale_ = false;
 }
 
 void TimeStep::renew(const Mesh& mesh, const Topology& topology, const Elements& el, const State& s,
@@ -182,7 +201,7 @@ Worst worst_of(const Elements& el, const State& s, const Field<double, SlotId>& 
 Worst worst_of_all(const Comm& comm, Worst w) {
   for (const Worst& b : comm.gather_one(w)) {
     if (b.omega2 > w.omega2 || (b.omega2 == w.omega2 && b.limiting < w.limiting)) w.limiting = b.limiting;
-    w.omega2 = std::fmax(w.omega2, b.omega2);
+    w.omega2 = std::fmax(w.omega2, b.omega2), w.collapsed = w.collapsed || b.collapsed;
     if (b.inverted.valid() && !(w.inverted.valid() && w.inverted < b.inverted)) w.inverted = b.inverted;
   }
   return w;
@@ -193,20 +212,23 @@ Worst worst_of_all(const Comm& comm, Worst w) {
 double TimeStep::omega2(const State& s, SlotId slot) const { return element_omega2(s, distortion_, slot); }
 
 double TimeStep::stable(const Elements& el, const State& s) {
-  const bool due = stale_ || s.step - refreshed_at_ >= refresh_steps;
-  if (due) {
-    const bool all = stale_ || refreshes_ < settling || refreshes_ % whole_refresh == 0;
-    refresh(el, s, all ? Which::all : Which::stiff);
-    refreshes_ = stale_ ? 1 : refreshes_ + 1;
-    refreshed_at_ = s.step;
-    stale_ = false;
+  const auto worst = [&] {
+    const Worst w = worst_of(el, s, distortion_);
+    return el.ranks ? worst_of_all(el.ranks->comm(), w) : w;
+  };
+  const int64_t since = s.step - refreshed_at_;
+  bool due = stale_ || since >= interval_;
+  if (due) refresh_all(el, s);
+  Worst w = worst();
+  if (!due && since >= refresh_steps && std::abs(w.omega2 - refreshed_omega2_) > calm * refreshed_omega2_) {
+    due = true;
+    refresh_all(el, s), w = worst();
   }
-  Worst w = worst_of(el, s, distortion_);
+  if (due) refreshed_omega2_ = w.omega2;
   if (w.collapsed && !due) {  // the centroid doesn't see a collapsing point: such elements are evaluated in every step
     refresh(el, s, Which::collapsed);
-    w = worst_of(el, s, distortion_);
+    w = worst();
   }
-  if (el.ranks) w = worst_of_all(el.ranks->comm(), w);
   limiting_ = w.limiting;
   inverted_ = w.inverted.valid() ? std::optional(w.inverted) : std::nullopt;
   omega2_ = w.omega2;

@@ -11,8 +11,9 @@ namespace bw::csd {
 /// omega_max^2 <= max over elements of lambda_max(K_e, M_e) for any share-out of the nodes' masses with sum M_e = M.
 /// The own shares are one; each refresh moves mass, at every node, to the elements in proportion to omega_e^2 m_e, so
 /// that stiff elements borrow from soft neighbours and the bound comes down to what the assembled model allows. The
-/// bound of element/stable_step.h costs about as much as a force, so it is evaluated every `refresh_steps`; in between
-/// each element's is scaled by its centroid part, which follows all of its change of size and shape but distortion.
+/// bound of element/stable_step.h costs about as much as four forces, so it is evaluated every `refresh_steps`, or less
+/// often while it hardly changes; in between each element's is scaled by its centroid part, which follows all of its
+/// change of size and shape but distortion.
 /// Elements with a collapsed point (q1p0.h) are evaluated in every step. Once the masses have settled, three of four
 /// refreshes leave them as they are and pass over blocks far from limiting the step.
 class TimeStep {
@@ -32,17 +33,21 @@ class TimeStep {
   /// as at first, and bounds of their own are evaluated. The rest stays.
   void renew(const Mesh& mesh, const Topology& topology, const Elements& elements, const State& s,
              std::span<const NodeId> nodes);
-  static constexpr int refresh_steps = 24;
+  static constexpr int refresh_steps = 24, most_steps = 192;
+  static constexpr double calm = 0.005;  ///< relative change from refresh to refresh, of the worst omega^2 since
   static constexpr int settling = 8, whole_refresh = 4;  ///< refreshes: of all at first; then of all once in
   static constexpr double stiff_part = 0.25;             ///< of the largest omega^2: others are passed over
 
  private:
   void share_masses(const Elements& elements, const State& s);
   enum class Which { all, stiff, collapsed };  // all: with new shares of mass
-  void refresh(const Elements& elements, const State& s, Which which);
+  double refresh(const Elements& elements, const State& s, Which which);  // the largest relative change
+  void refresh_all(const Elements& elements, const State& s);
   Aligned<float> mass_;               // [block][8][lanes] kg, M_e
   Field<double, SlotId> distortion_;  // bound / centroid part
   int64_t refreshed_at_ = 0, refreshes_ = 0;
+  int interval_ = refresh_steps;
+  double refreshed_omega2_ = 0;  // at the last refresh
   double omega2_ = 0;  // of the last call
   bool stale_ = true;
   SlotId limiting_;
