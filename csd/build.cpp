@@ -66,6 +66,8 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
   if (comm.size() > 1) elements.ranks = std::make_shared<Ranks>(comm, mesh, elements.blocks);
   for (const BodyCase& body : cs.bodies) elements.materials.push_back(make_material(body.material));
+  elements.skip_elastic = cs.skip_elastic;
+  elements.single_history = cs.history == "single";
   start(mesh, elements, s);
   Physics ph;
   ph.elements = std::move(elements);

@@ -114,7 +114,8 @@ struct WetCase {
 /// [solid]
 struct SolidCase {
   int threads = 0;
-  bool renumber = true, skip_resting = true;
+  bool renumber = true, skip_resting = true, skip_elastic = true;
+  std::string history = "double";
   std::vector<BodyCase> bodies;
   FilterCase filter;
   ViscosityCase viscosity;
@@ -135,8 +136,13 @@ struct SolidCase {
     k.optional("threads", threads, "threads of csd; 0: OMP_NUM_THREADS or what the machine gives");
     k.optional("renumber", renumber,
                "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
-    k.optional("skip_resting", skip_resting,
-               "pass over elements that no wave has reached (faster; the same results)");
+    k.optional("skip_resting", skip_resting, "pass over elements that no wave has reached (faster; the same results)");
+    k.optional(
+        "skip_elastic", skip_elastic,
+        "pass over the return mapping where nothing yields, and read the history of a parallelepiped in which nothing "
+        "has flowed at one point only (faster; the same results)");
+    k.choice("history", history, {"double", "single"},
+             "precision in which the points' plastic strains are stored; single: half the memory, rounded by 6e-8");
     k.tables("body", bodies, "a body: mesh, material, initial motion");
     k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
     k.table("filter", filter, "pressure filter");

@@ -8,6 +8,7 @@
 
 #include "common/math/pack.h"
 #include "csd/element/blocks.h"
+#include "csd/element/point_history.h"
 #include "csd/mesh/topology.h"
 
 namespace bw::csd {
@@ -30,7 +31,7 @@ struct State {
   Field<double, SlotId> viscous_time;    ///< s, its viscosity over the stiffness; empty without viscosity
   Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
   Field<double, SlotId> rigid;           ///< 1: of a rigid body, passed over by the force loop; empty without such
-  std::vector<Aligned<double>> history;  ///< [body]: [block][8][components][lanes], of this rank's blocks
+  std::vector<PointHistory> history;     ///< [body]
 
   std::vector<int32_t> followed;  ///< nodes whose x, v, f are kept up to date on this rank; empty: all
   template <class Work>

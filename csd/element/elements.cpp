@@ -20,11 +20,6 @@ int Elements::body_of(SlotId slot) const {
 
 namespace {
 
-template <class M>
-double* history_of(State& s, const Elements& el, int body, int block) {
-  return s.history[size_t(body)].data() + size_t(el.blocks.row_of(body, block)) * 8 * M::components * lanes;
-}
-
 /// What bulk viscosity does to an element.
 struct Viscous {
   Pack stress;  ///< Pa, added to sigma_m
@@ -45,7 +40,12 @@ struct Viscous {
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
                                     double per_dt, bool rests, State& s) {
-  double* history = history_of<M>(s, el, body, block);
+  PointHistory& histories = s.history[size_t(body)];
+  const int row = el.blocks.row_of(body, block);
+  HistoryBuffer<M> buffer;
+  double* history = histories.read(row, buffer.values);
+  const Skips skips{el.skip_elastic, el.skip_elastic && histories.is_uniform(row)};
+  bool flowed = false;
   const int32_t* nodes = el.blocks.nodes_of(block);
   const int used = el.blocks.used[size_t(block)];
   double work = 0;
@@ -55,7 +55,9 @@ template <class M, class Mean>
     const Pack V0 = Pack::load(&s.V0[slot]);
     Viscous viscous{Pack(0), Pack(0)};
     auto r = internal_force<Pack>(
-        material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); }, per_dt);
+        material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); }, per_dt,
+        skips);
+    flowed |= r.flowed;
     if (rests) r.f = {};  // round-off
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
@@ -76,6 +78,7 @@ template <class M, class Mean>
     r.volume.store(&s.volume[slot]);
     r.collapsed.store(&s.collapsed[slot]);
   }
+  if (flowed) histories.write(row, history);
   return work;
 }
 
@@ -182,15 +185,20 @@ namespace {
                   mesh.elem_gid[e], mesh.body[e], c.x, c.y, c.z, what, value));
 }
 
-/// Reference volume and history of one element in its lane.
+/// Reference volume and history of one element in its lane; whether it is a parallelepiped, whose points remember the
+/// same.
 template <class M>
-void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, State& s) {
+bool start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, State& s) {
   const Modes<double> modes = modes_of(corners(mesh, e));
   const Columns<double> g = columns_of(modes);
   s.V0[slot] = s.volume[slot] = volume_of(modes);
   if (!(s.V0[slot] > 0)) refuse(mesh, e, "volume", s.V0[slot]);
+  double linear = 0, rest = 0;
+  for (int i = 0; i < 7; ++i) (i < 3 ? linear : rest) += norm(modes.a[i]);
+  const bool uniform = rest < 1e-12 * linear;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 &g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
+    const int from = uniform ? 0 : i;
+    const Vec3 &g1 = g.at(0, from), &g2 = g.at(1, from), &g3 = g.at(2, from);
     const double det_g = triple(g1, g2, g3);
     if (!(det_g > 0)) refuse(mesh, e, "at an integration point a volume (8 det)", 8 * det_g);
     if (!history) continue;  // another rank's
@@ -198,6 +206,7 @@ void start_element(const Mesh& mesh, ElemId e, SlotId slot, double* history, Sta
     store_sym(at_point, metric(cross(g2, g3), cross(g3, g1), cross(g1, g2), 1 / (det_g * det_g)));
     for (int c = 6; c < M::components; ++c) at_point[c * lanes] = 0;
   }
+  return uniform;
 }
 
 }  // namespace
@@ -210,11 +219,22 @@ void start(const Mesh& mesh, Elements& el, State& s) {
     const int first = el.blocks.first_block[size_t(body)], last = el.blocks.first_block[size_t(body) + 1];
     std::visit(
         [&]<class M>(const M&) {
-          s.history.emplace_back(size_t(el.blocks.own_count(body)) * 8 * M::components * lanes, 0.0);
-          for (SlotId slot(first * lanes); slot < last * lanes; slot = SlotId(slot + 1)) {
-            const ElemId e = el.blocks.elem[slot];
-            const bool own = el.blocks.is_own(slot);
-            start_element<M>(mesh, e, slot, own ? history_of<M>(s, el, body, slot / lanes) + slot % lanes : nullptr, s);
+          PointHistory& history = s.history.emplace_back(el.blocks.own_count(body), M::components, el.single_history);
+          for (int block = first; block < last; ++block) {
+            bool uniform = true;
+            const auto start_lanes = [&](double* values) {
+              for (int l = 0; l < lanes; ++l) {
+                const SlotId slot(block * lanes + l);
+                uniform &= start_element<M>(mesh, el.blocks.elem[slot], slot, values ? values + l : nullptr, s);
+              }
+            };
+            if (!el.blocks.is_own(block)) {
+              start_lanes(nullptr);
+              continue;
+            }
+            const int row = el.blocks.row_of(body, block);
+            history.change(row, start_lanes);
+            if (uniform) history.set_uniform(row);
           }
         },
         el.materials[size_t(body)]);

@@ -18,6 +18,8 @@ struct Elements {
   Blocks blocks;
   std::vector<Materials> materials;  ///< [body]
   std::vector<double> mass_factor;   ///< [element] of mass scaling; empty: 1
+  bool skip_elastic = true;          ///< pass over work that only flow needs (Skips)
+  bool single_history = false;       ///< see PointHistory
 
   int body_of(SlotId slot) const;
 

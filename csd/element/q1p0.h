@@ -20,6 +20,13 @@ struct ElementForce {
   Vec<T> centre[3];  ///< m, dx/dxi_k at the centroid
   T volume;          ///< m^3, current
   T collapsed;       ///< > 0: a point has J_g < collapse_ratio J_bar (or is inverted)
+  bool flowed;       ///< the history has changed
+};
+
+/// Which work an element may pass over; the results are the same.
+struct Skips {
+  bool elastic = true;   ///< the return mapping, where no point yields
+  bool uniform = false;  ///< all points remember what the first does (PointHistory): it alone is read
 };
 
 /// Collapsed points push back (DESIGN 5b): energy kappa/2 ln^2(r / collapse_ratio) per reference volume for r =
@@ -126,6 +133,7 @@ template <class T, class M>
   }
   for (unsigned left = flowing; left; left &= left - 1) {
     const int i = std::countr_zero(left);
+    if (!any(keep[i] < T(1))) continue;
     double* at_point = history + i * stride;
     const Vec<T>&g1 = g.at(0, i), &g2 = g.at(1, i), &g3 = g.at(2, i);
     const T inverse_det2 = T(1) / (p.det_g[i] * p.det_g[i]);
@@ -142,17 +150,18 @@ template <class T, class M>
 /// strains, roots of J, flow of the points that yield, forces.
 template <class T, class M, class MeanStress>
 ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, double* history,
-                               const MeanStress& mean_stress, double per_dt = 0) {
+                               const MeanStress& mean_stress, double per_dt = 0, Skips skip = {}) {
   const Modes<T> modes = modes_of(x);
   const Columns<T> g = columns_of(modes);
-  constexpr int stride = M::components * lanes;
+  const int stride = skip.uniform ? 0 : M::components * lanes;
   Points<T> p;
   T least_det(1e300), least_squared(1e300);
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
     const double* at_point = history + i * stride;
-    for (int c = 0; c < M::components; ++c)
-      __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
+    if (!skip.uniform)
+      for (int c = 0; c < M::components; ++c)
+        __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
     convect(load_sym<T>(at_point), g.at(0, i), g.at(1, i), g.at(2, i), i, p);
     least_det = min(least_det, p.det_g[i]), least_squared = min(least_squared, p.J_squared[i]);
   }
@@ -160,10 +169,11 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
   const auto is_collapsed = (least_squared < T(collapse_ratio * collapse_ratio) * J_bar * J_bar) | (least_det <= T(0));
   inverse_sixth_roots(p.J_squared, p.root);
   for (int i = 0; i < 8; ++i) p.k[i] = T(material.mu) * (p.root[i] * p.root[i]);  // eq (6)
+  unsigned flowing = 0;  // a bit per point with a lane that yields
   if constexpr (M::plastic) {
-    unsigned flowing = 0;  // a bit per point with a lane that yields
     for (int i = 0; i < 8; ++i)
       flowing |= unsigned(any(material.yields(p.root[i] * p.root[i], p.dev2[i], history + i * stride))) << i;
+    if (!skip.elastic) flowing = 255;
     if (flowing) flow(material, g, flowing, history, per_dt, p);
   }
   Columns<T> q;
@@ -185,7 +195,11 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
     collapse_guard(g, history, M::components, J_bar, volume, T(material.volumetric.kappa), q, correction);
     add_mean_stress(g, correction, q);
   }
-  return {forces_from_columns(q), {modes.a[0], modes.a[1], modes.a[2]}, volume, select(is_collapsed, T(1), T(0))};
+  return {forces_from_columns(q),
+          {modes.a[0], modes.a[1], modes.a[2]},
+          volume,
+          select(is_collapsed, T(1), T(0)),
+          flowing != 0};
 }
 
 }  // namespace bw::csd

@@ -11,11 +11,18 @@
 namespace bw::csd {
 namespace {
 
+/// An element's history.
 template <class M>
-const double* history_of(const Elements& el, const State& s, int body, SlotId slot) {
-  const size_t block = size_t(el.blocks.row_of(body, slot / lanes));
-  return s.history[size_t(body)].data() + block * 8 * M::components * lanes + slot % lanes;
-}
+class HistoryOf {
+ public:
+  HistoryOf(const Elements& el, const State& s, int body, SlotId slot)
+      : values_(s.history[size_t(body)].read(el.blocks.row_of(body, slot / lanes), buffer_.values) + slot % lanes) {}
+  const double* at(int point) const { return values_ + point * M::components * lanes; }
+
+ private:
+  HistoryBuffer<M> buffer_;
+  const double* values_;
+};
 
 Corners<double> corners_at(const Elements& el, const State& s, SlotId slot) {
   const int32_t* n = el.blocks.nodes_of(slot / lanes) + slot % lanes;
@@ -74,7 +81,7 @@ ElementResult evaluate(const Elements& el, const State& s, SlotId slot, const Fi
   const int body = el.body_of(slot);
   return std::visit(
       [&]<class M>(const M& material) {
-        return evaluate_as(material, corners_at(el, s, slot), s.V0[slot], history_of<M>(el, s, body, slot),
+        return evaluate_as(material, corners_at(el, s, slot), s.V0[slot], HistoryOf<M>(el, s, body, slot).at(0),
                            sigma_m ? &(*sigma_m)[slot] : nullptr);
       },
       el.materials[size_t(body)]);
@@ -88,9 +95,8 @@ Corners<double> element_force(const Elements& el, const State& s, SlotId slot) {
         NeoHooke elastic;
         static_cast<Elastic&>(elastic) = material;
         double A[8 * NeoHooke::components * lanes];
-        const double* history = history_of<M>(el, s, body, slot);
-        for (int i = 0; i < 8; ++i)
-          store_sym(A + i * NeoHooke::components * lanes, load_sym<double>(history + i * M::components * lanes));
+        const HistoryOf<M> history(el, s, body, slot);
+        for (int i = 0; i < 8; ++i) store_sym(A + i * NeoHooke::components * lanes, load_sym<double>(history.at(i)));
         const auto mean_stress = [&](double J_bar) { return material.volumetric.mean_stress(J_bar); };
         return internal_force<double>(elastic, corners_at(el, s, slot), s.V0[slot], A, mean_stress, 0).f;
       },
@@ -128,14 +134,16 @@ double flow_stress(const Elements& el, const State& s, SlotId slot, double rate)
   return std::visit(
       [&]<class M>(const M& material) {
         double sum = 0;
-        if constexpr (M::plastic)
+        if constexpr (M::plastic) {
+          const HistoryOf<M> history(el, s, body, slot);
           for (int i = 0; i < 8; ++i) {
-            const double* history = history_of<M>(el, s, body, slot) + i * M::components * lanes;
+            const double* at_point = history.at(i);
             if constexpr (requires { material.flow.stress(0.0); })
-              sum += material.flow.stress(history[6 * lanes]);
+              sum += material.flow.stress(at_point[6 * lanes]);
             else
-              sum += material.flow.at(material.temperature(history)).stress(history[6 * lanes], rate).value;
+              sum += material.flow.at(material.temperature(at_point)).stress(at_point[6 * lanes], rate).value;
           }
+        }
         return 0.125 * sum;
       },
       el.materials[size_t(body)]);
@@ -154,9 +162,8 @@ double mises_most(const Elements& el, const State& s, SlotId slot) {
         if constexpr (M::plastic)
           if constexpr (requires { material.flow.stress(0.0); }) {
             most = 0;  // Kirchhoff, at the points
-            for (int i = 0; i < 8; ++i)
-              most = std::max(most,
-                              material.flow.stress(history_of<M>(el, s, body, slot)[(i * M::components + 6) * lanes]));
+            const HistoryOf<M> history(el, s, body, slot);
+            for (int i = 0; i < 8; ++i) most = std::max(most, material.flow.stress(history.at(i)[6 * lanes]));
             most *= (1 + 1e-6) * s.V0[slot] / s.volume[slot];
           }
         return most;
@@ -173,8 +180,10 @@ double mean_eqps(const Elements& el, const State& s, SlotId slot) {
   return std::visit(
       [&]<class M>(const M&) {
         double sum = 0;
-        if constexpr (M::plastic)
-          for (int i = 0; i < 8; ++i) sum += history_of<M>(el, s, body, slot)[(i * M::components + 6) * lanes];
+        if constexpr (M::plastic) {
+          const HistoryOf<M> history(el, s, body, slot);
+          for (int i = 0; i < 8; ++i) sum += history.at(i)[6 * lanes];
+        }
         return 0.125 * sum;
       },
       el.materials[size_t(body)]);
@@ -185,10 +194,9 @@ void mean_eqps(const Elements& el, const State& s, int block, int body, double* 
       [&]<class M>(const M&) {
         std::fill_n(eqps, lanes, 0.0);
         if constexpr (M::plastic) {
-          const double* history =
-              s.history[size_t(body)].data() + size_t(el.blocks.row_of(body, block)) * 8 * M::components * lanes;
+          const HistoryOf<M> history(el, s, body, SlotId(block * lanes));
           for (int i = 0; i < 8; ++i)
-            for (int l = 0; l < lanes; ++l) eqps[l] += history[(i * M::components + 6) * lanes + l];
+            for (int l = 0; l < lanes; ++l) eqps[l] += history.at(i)[6 * lanes + l];
           for (int l = 0; l < lanes; ++l) eqps[l] *= 0.125;
         }
       },

@@ -43,8 +43,8 @@ namespace {
 /// Bound over centroid part, for the elements of a block; returns the largest relative change.
 template <class M>
 [[gnu::flatten]] double block_distortion(const Elements& el, const M& material, const double* history, int block,
-                                       const Aligned<float>& masses, const State& s,
-                                       Field<double, SlotId>& distortion) {
+                                         const Aligned<float>& masses, const State& s,
+                                         Field<double, SlotId>& distortion) {
   Pack change(0);
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
@@ -65,11 +65,11 @@ template <class M>
 }
 
 double renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<float>& masses,
-                      Field<double, SlotId>& distortion) {
+                        Field<double, SlotId>& distortion) {
   return std::visit(
       [&]<class M>(const M& material) {
-        const size_t in_body = size_t(el.blocks.row_of(body, block));
-        const double* history = s.history[size_t(body)].data() + in_body * 8 * M::components * lanes;
+        HistoryBuffer<M> buffer;
+        const double* history = s.history[size_t(body)].read(el.blocks.row_of(body, block), buffer.values);
         return block_distortion(el, material, history, block, masses, s, distortion);
       },
       el.materials[size_t(body)]);

@@ -40,7 +40,7 @@ class TimeStep {
 
  private:
   void share_masses(const Elements& elements, const State& s);
-  enum class Which { all, stiff, collapsed };  // all: with new shares of mass
+  enum class Which { all, stiff, collapsed };                             // all: with new shares of mass
   double refresh(const Elements& elements, const State& s, Which which);  // the largest relative change
   void refresh_all(const Elements& elements, const State& s);
   Aligned<float> mass_;               // [block][8][lanes] kg, M_e
@@ -48,7 +48,7 @@ class TimeStep {
   int64_t refreshed_at_ = 0, refreshes_ = 0;
   int interval_ = refresh_steps;
   double refreshed_omega2_ = 0;  // at the last refresh
-  double omega2_ = 0;  // of the last call
+  double omega2_ = 0;            // of the last call
   bool stale_ = true;
   SlotId limiting_;
   std::optional<SlotId> inverted_;

@@ -14,13 +14,12 @@
 namespace bw::csd {
 namespace {
 
-double* history_of(const Elements& el, State& s, SlotId slot, size_t components) {
+/// change(values) with the histories of the block of a slot, those of the slot `lanes` apart; kept.
+template <class Change>
+void change_history(const Elements& el, State& s, SlotId slot, const Change& change) {
   const int body = el.body_of(slot);
-  const size_t block = size_t(el.blocks.row_of(body, slot / lanes));
-  return s.history[size_t(body)].data() + block * 8 * components * lanes + slot % lanes;
-}
-size_t components_of(const Elements& el, SlotId slot) {
-  return std::visit([]<class M>(const M&) { return size_t(M::components); }, el.materials[size_t(el.body_of(slot))]);
+  s.history[size_t(body)].change(el.blocks.row_of(body, slot / lanes),
+                                 [&](double* values) { change(values + slot % lanes); });
 }
 
 }  // namespace
@@ -111,8 +110,9 @@ void Rigid::after_elements(const Elements& el, State& s) {
     for (const NodeId n : bodies_[size_t(i)].nodes()) s.f[n] = {};
   });
   for (const Kept& kept : kept_) {
-    double* history = history_of(el, s, kept.slot, kept.values.size() / 8);
-    for (size_t i = 0; i < kept.values.size(); ++i) history[i * lanes] = kept.values[i];
+    change_history(el, s, kept.slot, [&](double* history) {
+      for (size_t i = 0; i < kept.values.size(); ++i) history[i * lanes] = kept.values[i];
+    });
   }
 }
 
@@ -157,13 +157,14 @@ void Rigid::renew_marks(Model& m) {
     }
     m.physics.resting.set_rigid(block, count == used, el.blocks.block_count());
     if (count == 0 || count == used || !el.blocks.is_own(block)) continue;
-    const size_t components = components_of(el, first);
+    const PointHistory& histories = s.history[size_t(el.body_of(first))];
+    Aligned<double> buffer(histories.block_size());
+    const double* history = histories.read(el.blocks.row_of(el.body_of(first), block), buffer.data());
     for (int l = 0; l < used; ++l) {
       const SlotId slot(first + l);
       if (s.rigid[slot] == 0) continue;
-      Kept kept{slot, std::vector<double>(8 * components)};
-      const double* history = history_of(el, s, slot, components);
-      for (size_t i = 0; i < kept.values.size(); ++i) kept.values[i] = history[i * lanes];
+      Kept kept{slot, std::vector<double>(buffer.size() / lanes)};
+      for (size_t i = 0; i < kept.values.size(); ++i) kept.values[i] = history[i * lanes + size_t(l)];
       kept_.push_back(std::move(kept));
     }
   }

@@ -52,7 +52,8 @@ struct JohnsonCook {
         const T far = part * exp(T(law.n) * log(T(1) + max(xi, T(0))));
         return {select(large, far, r.value), select(large, T(law.n) * far / (eqps + x), r.slope)};
       };
-      T lower(0), upper = most, slope(0), x = guess(q, stiffness, rest, part * per_eqps, most, ratio_per_x, x_per_ratio);
+      T lower(0), upper = most, slope(0),
+                  x = guess(q, stiffness, rest, part * per_eqps, most, ratio_per_x, x_per_ratio);
       auto active = yields & !virgin;  // lanes stop one by one
       for (int i = 0; i < 100 && any(active); ++i) {
         const auto [grown, rising] = hardened(x);
@@ -92,11 +93,12 @@ struct JohnsonCook {
     }
 
    private:
-    /// Within 4e-3 where hardening is nearly linear: stiff x + rated ln(ratio) = over. Newton's method for y = ln(ratio),
-    /// where it comes down from a bound without overshoot, then one better step for x.
+    /// Within 4e-3 where hardening is nearly linear: stiff x + rated ln(ratio) = over. Newton's method for y =
+    /// ln(ratio), where it comes down from a bound without overshoot, then one better step for x.
     T guess(T q, T stiffness, T rest, T part_per_eqps, T most, T ratio_per_x, T x_per_ratio) const {
       const T rated = T(law.C) * rest, over = q - rest, stiff = stiffness + T(law.n) * part_per_eqps;
-      const T per_rated = T(1) / max(rated, T(1e-30)), stiff_part = stiff * x_per_ratio * per_rated, z = over * per_rated;
+      const T per_rated = T(1) / max(rated, T(1e-30)), stiff_part = stiff * x_per_ratio * per_rated,
+              z = over * per_rated;
       T y = min(short_log(max(over / stiff * ratio_per_x, T(1))), z);
       for (int i = 0; i < 3; ++i) {
         const T e = stiff_part * rough_exp(y);

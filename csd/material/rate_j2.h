@@ -14,13 +14,14 @@ namespace bw::csd {
 ///   at_rest(eqps)       flow stress where nothing moves [Pa]: it decides on yielding
 ///   stress(eqps, rate)  FlowStress, >= at_rest(eqps) >= 0
 /// and stress rises with the rate. It may solve for the increment of eqps itself, as increment_by_newton does, and then
-/// know the flow stress at rest after it: increment(...).rest. One whose softening by heat is costly has at(temperature,
-/// softening) and heated(temperature): then the history remembers the factor 1 - softening.
+/// know the flow stress at rest after it: increment(...).rest. One whose softening by heat is costly has
+/// at(temperature, softening) and heated(temperature): then the history remembers the factor 1 - softening.
 template <class Flow>
 struct RateJ2 : Elastic {
   static constexpr auto name = "j2";
   static constexpr bool remembers = requires(Flow f) { f.at(0.0, 0.0); };
-  /// A, eqps, plastic work [J/m^3], flow stress at rest beyond that of the start [Pa]; softening beyond that of the start.
+  /// A, eqps, plastic work [J/m^3], flow stress at rest beyond that of the start [Pa]; softening beyond that of the
+  /// start.
   static constexpr int components = remembers ? 10 : 9;
   static constexpr bool plastic = true;
   static constexpr int points_together = 4;

@@ -58,8 +58,9 @@ TEST(EnergyAudit, FindsTheElementThatLosesIt) {
   const SlotId slot = m.physics.elements.blocks.slot[thief];
   for (int n = 0; n < 20; ++n) {
     step(m, 0.9 * stable(m));
-    double* history = m.state.history[0].data() + size_t(slot / lanes) * 8 * 7 * lanes + slot % lanes;
-    for (int i = 0; i < 8; ++i) history[(i * 7 + 6) * lanes] += 1e-3;  // plastic work that nobody did
+    m.state.history[0].change(slot / lanes, [&](double* history) {
+      for (int i = 0; i < 8; ++i) history[(i * 7 + 6) * lanes + slot % lanes] += 1e-3;  // plastic work that nobody did
+    });
     audit.add(m);
   }
   const std::string report = audit.report(m);
