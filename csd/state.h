@@ -8,8 +8,8 @@
 
 #include "common/math/pack.h"
 #include "csd/element/blocks.h"
-#include "csd/element/point_history.h"
 #include "csd/mesh/topology.h"
+#include "csd/point_history.h"
 
 namespace bw::csd {
 
