@@ -20,29 +20,16 @@ struct Id {
 using NodeId = Id<struct NodeTag>;
 using ElemId = Id<struct ElemTag>;
 
-/// Tells the system that memory is used in large pages; no effect where it has none.
-void ask_for_large_pages(void* p, size_t bytes);
-
 /// Cache-line aligned storage, so that packs load in one piece, with a line to spare behind: a load that begins at the last
-/// entry may reach beyond it. Large arrays ask for large pages, where the system gives them: fewer misses of the table of
-/// pages.
+/// entry may reach beyond it.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
   AlignedAllocator() = default;
   template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(size_t n) {
-    const size_t bytes = n * sizeof(T) + 64;
-    void* p = ::operator new(bytes, alignment(n));
-    if (bytes >= large) ask_for_large_pages(p, bytes);
-    return static_cast<T*>(p);
-  }
-  void deallocate(T* p, size_t n) { ::operator delete(p, alignment(n)); }
+  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T) + 64, std::align_val_t(64))); }
+  void deallocate(T* p, size_t) { ::operator delete(p, std::align_val_t(64)); }
   friend bool operator==(AlignedAllocator, AlignedAllocator) { return true; }
-
- private:
-  static constexpr size_t large = size_t(8) << 20, page = size_t(2) << 20;
-  static std::align_val_t alignment(size_t n) { return std::align_val_t(n * sizeof(T) + 64 >= large ? page : 64); }
 };
 template <class T> using Aligned = std::vector<T, AlignedAllocator<T>>;
 

@@ -30,6 +30,9 @@ struct Pack {
   /// Any alignment.
   static Pack load(const double* p) { return Pack(V(*reinterpret_cast<const VU*>(p))); }
   void store(double* p) const { *reinterpret_cast<VU*>(p) = v; }
+  typedef float FU __attribute__((vector_size(pack_size * 4), aligned(4), may_alias));
+  static Pack load(const float* p) { return Pack(__builtin_convertvector(*reinterpret_cast<const FU*>(p), V)); }
+  void store(float* p) const { *reinterpret_cast<FU*>(p) = __builtin_convertvector(v, FU); }
   double operator[](int i) const { return v[i]; }
   void set(int i, double a) { v[i] = a; }
   friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }

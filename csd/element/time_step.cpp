@@ -15,7 +15,7 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
     mass_.resize(size_t(el.blocks.slot_count()) * 8);
     for (size_t i = 0; i < mass_.size(); ++i)  // any weights: they are made to sum to the nodes' masses
       mass_[i] = float(s.V0[SlotId(int64_t(i / (8 * lanes) * lanes + i % lanes))]);
-    distortion_.resize(s.V0.size(), 1.0);
+    distortion_.resize(s.V0.size(), 1);
   }
   Field<double, NodeId> sum(s.m.size());
   const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
@@ -44,18 +44,18 @@ namespace {
 template <class M>
 [[gnu::flatten]] double block_distortion(const Elements& el, const M& material, const double* history, int block,
                                          const Aligned<float>& masses, const State& s,
-                                         Field<double, SlotId>& distortion) {
+                                         Field<float, SlotId>& distortion) {
   Pack change(0);
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
     Pack mass[8];
-    for (int a = 0; a < 8; ++a)
-      for (int i = 0; i < Pack::size; ++i) mass[a].set(i, masses[size_t(block * 8 + a) * lanes + size_t(l + i)]);
+    for (int a = 0; a < 8; ++a) mass[a] = Pack::load(&masses[size_t(block * 8 + a) * lanes + size_t(l)]);
     const Pack V0 = Pack::load(&s.V0[slot]), volume = Pack::load(&s.volume[slot]);
     const Pack sigma = material.volumetric.mean_stress(volume / V0);
     const Corners<Pack> x = gather(s.x.data(), el.blocks.nodes_of(block) + l);
     const Pack bound = omega2_bound<Pack>(material, x, V0, mass, sigma, history + l);
-    const Pack now = bound / Pack::load(&s.omega2[slot]), before = Pack::load(&distortion[slot]);
+    constexpr double up = 1 + 1e-7;  // rounding to single precision doesn't lower it
+    const Pack now = Pack(up) * bound / Pack::load(&s.omega2[slot]), before = Pack::load(&distortion[slot]);
     change = max(abs(now - before) / before, change);
     now.store(&distortion[slot]);
   }
@@ -65,7 +65,7 @@ template <class M>
 }
 
 double renew_distortion(const Elements& el, const State& s, int block, int body, const Aligned<float>& masses,
-                        Field<double, SlotId>& distortion) {
+                        Field<float, SlotId>& distortion) {
   return std::visit(
       [&]<class M>(const M& material) {
         HistoryBuffer<M> buffer;
@@ -86,7 +86,7 @@ Pack unless_rigid(const State& s, Pack value, SlotId first) {
   return s.rigid.size() > 0 ? select(Pack::load(&s.rigid[first]) > Pack(0), Pack(0), value) : value;
 }
 /// Bounds of a pack of elements.
-Pack omega2_of(const State& s, const Field<double, SlotId>& distortion, SlotId first) {
+Pack omega2_of(const State& s, const Field<float, SlotId>& distortion, SlotId first) {
   const Pack omega2 = unless_rigid(s, Pack::load(&s.omega2[first]) * Pack::load(&distortion[first]), first);
   return s.viscous_time.size() > 0 ? damped_omega2(omega2, Pack::load(&s.viscous_time[first])) : omega2;
 }
@@ -96,7 +96,7 @@ struct BlockState {
   double omega2 = 0;  ///< largest bound
   bool inverted = false, collapsed = false;
 };
-BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int block) {
+BlockState state_of(const State& s, const Field<float, SlotId>& distortion, int block) {
   Pack omega2(0), volume(1), collapsed(0);
   for (int l = 0; l < lanes; l += Pack::size) {
     const SlotId slot(block * lanes + l);
@@ -113,16 +113,16 @@ BlockState state_of(const State& s, const Field<double, SlotId>& distortion, int
 
 double TimeStep::refresh(const Elements& el, const State& s, Which which) {
   if (which == Which::all) share_masses(el, s);
-  std::vector<double> change(size_t(el.blocks.block_count()), 0.0);
+  std::vector<float> change(size_t(el.blocks.block_count()), 0);
   for_blocks(el.blocks, [&](int block, int body) {
     if (which != Which::all) {
       const BlockState now = state_of(s, distortion_, block);
       if (!now.collapsed && (which == Which::collapsed || now.omega2 < stiff_part * omega2_)) return;
     }
-    change[size_t(block)] = renew_distortion(el, s, block, body, mass_, distortion_);
+    change[size_t(block)] = float(renew_distortion(el, s, block, body, mass_, distortion_));
   });
   double largest = 0;
-  for (double c : change) largest = std::fmax(largest, c);
+  for (float c : change) largest = std::fmax(largest, double(c));
   return el.ranks ? el.ranks->comm().max(largest) : largest;
 }
 
@@ -166,10 +166,10 @@ struct Worst {
   SlotId limiting, inverted;
   bool collapsed = false;
 };
-double element_omega2(const State& s, const Field<double, SlotId>& distortion, SlotId slot) {
+double element_omega2(const State& s, const Field<float, SlotId>& distortion, SlotId slot) {
   return omega2_of(s, distortion, SlotId(slot - slot % Pack::size))[slot % Pack::size];
 }
-Worst worst_of(const Elements& el, const State& s, const Field<double, SlotId>& distortion) {
+Worst worst_of(const Elements& el, const State& s, const Field<float, SlotId>& distortion) {
   struct Blocks {
     BlockState state;
     int limiting = -1, inverted = -1;

@@ -43,8 +43,8 @@ class TimeStep {
   enum class Which { all, stiff, collapsed };                             // all: with new shares of mass
   double refresh(const Elements& elements, const State& s, Which which);  // the largest relative change
   void refresh_all(const Elements& elements, const State& s);
-  Aligned<float> mass_;               // [block][8][lanes] kg, M_e
-  Field<double, SlotId> distortion_;  // bound / centroid part
+  Aligned<float> mass_;              // [block][8][lanes] kg, M_e
+  Field<float, SlotId> distortion_;  // bound / centroid part
   int64_t refreshed_at_ = 0, refreshes_ = 0;
   int interval_ = refresh_steps;
   double refreshed_omega2_ = 0;  // at the last refresh
