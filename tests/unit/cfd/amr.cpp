@@ -21,16 +21,6 @@ std::string amr(int levels, const std::string& more = "") {
 std::string fine_ball(int level) {
   return "[[fluid.amr.region]]\nshape = {kind = \"sphere\", centre = [0.35, 0.4, 0.3], radius = 0.1}\nlevel = " + std::to_string(level) + "\n";
 }
-const std::string air_flow = R"([[fluid.material]]
-name = "air"
-library = "air"
-[[fluid.region]]
-shape = {kind = "everywhere"}
-material = "air"
-density = 1.225
-pressure = 101325
-velocity = [100, 50, 20]
-)";
 
 /// Moves the fine ball of a flow along a diagonal, around the corners.
 void move_ball(Flow& f, int step) {
@@ -219,23 +209,9 @@ TEST(Levels, EnergyStillStoredIsCarriedOver) {
   EXPECT_GT(std::abs(stored_energy(f.m) - stored), 1e-6 * stored);  // it is not the same: the front is sampled at other places
 }
 
-TEST(Levels, EqualForAnyNumberOfThreads) {
-  use_threads(1);
-  Flow one(charge_with_levels);
-  one.steps(15);
-  use_threads(2);
-  Flow two(charge_with_levels);
-  two.steps(15);
-  EXPECT_EQ(one.bits(), two.bits());
-  EXPECT_EQ(one.sums().U[Cons::rhoE], two.sums().U[Cons::rhoE]);
-}
+TEST(Levels, EqualForAnyNumberOfThreads) { expect_equal_on_threads(charge_with_levels, 15); }
 
-TEST(Levels, BlocksAtRestAreSkipped) {
-  Flow skip(charge_with_levels, true), all(charge_with_levels, false);
-  skip.steps(15, 2e-6), all.steps(15, 2e-6);
-  EXPECT_EQ(skip.bits(), all.bits());
-  EXPECT_LT(skip.books.booked(skip.m).updates, all.books.booked(all.m).updates);
-}
+TEST(Levels, BlocksAtRestAreSkipped) { expect_rest_is_skipped(charge_with_levels, 15); }
 
 TEST(Levels, LinearProfilesGoThroughALevelJumpUnchanged) {  // ghosts of second order
   const double a[3] = {1, 2, 3}, b = 2.5;

@@ -10,6 +10,7 @@
 #include "cfd/books.h"
 #include "cfd/build.h"
 #include "cfd/step.h"
+#include "common/app/machine.h"
 
 namespace bw::cfd {
 
@@ -60,6 +61,35 @@ struct Flow {
   }
 };
 
+/// The same bits on 1 and 2 threads.
+inline void expect_equal_on_threads(const std::string& text, int steps) {
+  use_threads(1);
+  Flow one(text);
+  one.steps(steps);
+  use_threads(2);
+  Flow two(text);
+  two.steps(steps);
+  EXPECT_EQ(one.bits(), two.bits());
+  EXPECT_EQ(one.sums().U[Cons::rhoE], two.sums().U[Cons::rhoE]);
+}
+/// Blocks at rest are passed over, and the bits are the same.
+inline void expect_rest_is_skipped(const std::string& text, int steps) {
+  Flow skip(text, true), all(text, false);
+  skip.steps(steps, 2e-6), all.steps(steps, 2e-6);
+  EXPECT_EQ(skip.bits(), all.bits());
+  EXPECT_LT(skip.books.booked(skip.m).updates, all.books.booked(all.m).updates);
+}
+
+inline const std::string air_flow = R"([[fluid.material]]
+name = "air"
+library = "air"
+[[fluid.region]]
+shape = {kind = "everywhere"}
+material = "air"
+density = 1.225
+pressure = 101325
+velocity = [100, 50, 20]
+)";
 inline const std::string air_and_tnt = R"(
 [[fluid.material]]
 name = "TNT"
