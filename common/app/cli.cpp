@@ -20,6 +20,7 @@ CommandLine read_command_line(int argc, char** argv, const std::string& program,
   app.add_option("--threads", line.threads, "threads of this program, instead of the case file's");
   app.add_option("--output", line.output, "folder of the results, instead of the case file's");
   app.add_option("--end", end, "end time with unit (\"50 us\"), instead of the case file's");
+  app.add_option("--restart", line.restart, "go on from this checkpoint, or from the latest one in this folder");
   app.set_version_flag("--version", fmt::format("{} {} ({})", program, version(), git_version()));
   try {
     app.parse(argc, argv);

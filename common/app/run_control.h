@@ -39,12 +39,29 @@ struct RunControl {
     }
   } output;
 
+  struct Checkpoint {
+    double every = 0, every_wall = 0;  ///< [s] simulated, wall clock
+    int every_steps = 0, keep = 2;
+    template <class K>
+    void describe(K& k) {
+      k.optional("every", every, dim::time, "simulated time between checkpoints; 0: none by time");
+      k.optional("every_steps", every_steps, "steps between checkpoints; 0: none by steps");
+      k.optional("every_wall", every_wall, dim::time, "wall-clock time between checkpoints; 0: none. The signal USR1 asks for one at once");
+      k.optional("keep", keep, "the latest checkpoints that stay; older ones are removed");
+      k.expect(every >= 0, "every", "a positive time, or 0 for none");
+      k.expect(every_steps >= 0, "every_steps", "a number of steps, or 0 for none");
+      k.expect(every_wall >= 0, "every_wall", "a positive time, or 0 for none");
+      k.expect(keep >= 1, "keep", "at least 1");
+    }
+  } checkpoint;
+
   /// At the top of the case file.
   template <class K>
   void describe(K& k) {
     k.optional("title", title, "free text, repeated in the results");
     k.table("time", time, "when the run ends");
     k.table("output", output, "what is written, where and how often");
+    k.table("checkpoint", checkpoint, "files from which a run goes on bit for bit (--restart)");
   }
 };
 

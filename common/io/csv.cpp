@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -31,34 +33,47 @@ std::string header(const std::vector<History::Column>& columns) {
 
 }  // namespace
 
-History::History(const std::string& path, std::vector<Column> columns)
-    : path_(path), columns_(std::move(columns)), flushed_(std::chrono::steady_clock::now()) {
-  write_atomically(path_, header(columns_));
+History::History(const std::string& path, std::vector<Column> columns) : History(path, std::move(columns), "") {}
+
+History::History(const std::string& path, std::vector<Column> columns, const std::string& rows)
+    : path_(path),
+      columns_(std::move(columns)),
+      rows_(std::count(rows.begin(), rows.end(), '\n')),
+      flushed_(std::chrono::steady_clock::now()) {
+  write_atomically(path_, header(columns_) + rows);
   file_ = std::fopen(path_.c_str(), "ab");
   if (!file_) failed(path_);
 }
 
-History History::resume(const std::string& path, std::vector<Column> columns, double t) {
+template <class Kept>
+History History::resume_where(const std::string& path, std::vector<Column> columns, const Kept& kept_row) {
   std::ifstream in(path, std::ios::binary);
   std::string kept, line;
   std::getline(in, line);
   const std::string old_header = line + "\n";
-  for (; std::getline(in, line) && !in.eof();)  // a last row without its end was cut by a crash
-    if (std::strtod(line.c_str(), nullptr) <= t) kept += line + "\n";
+  for (int64_t i = 0; std::getline(in, line) && !in.eof(); ++i)  // a last row without its end was cut by a crash
+    if (kept_row(line, i)) kept += line + "\n";
   in.close();
   const std::string expected = header(columns);
   if (old_header != expected)
     throw InputError(fmt::format("{}: its columns are not those of this case; expected {}", path, expected));
-  History history(path, std::move(columns));
-  if (std::fwrite(kept.data(), 1, kept.size(), history.file_) != kept.size()) failed(path);
-  history.flush();
-  return history;
+  return History(path, std::move(columns), kept);
+}
+
+History History::resume(const std::string& path, std::vector<Column> columns, double t) {
+  return resume_where(path, std::move(columns), [&](const std::string& line, int64_t) { return std::strtod(line.c_str(), nullptr) <= t; });
+}
+
+History History::resume_rows(const std::string& path, std::vector<Column> columns, int64_t rows) {
+  if (!std::filesystem::exists(path)) return History(path, std::move(columns));
+  return resume_where(path, std::move(columns), [&](const std::string&, int64_t i) { return i < rows; });
 }
 
 History::History(History&& other) noexcept
     : path_(std::move(other.path_)),
       columns_(std::move(other.columns_)),
       file_(std::exchange(other.file_, nullptr)),
+      rows_(other.rows_),
       flushed_(other.flushed_) {}
 
 History::~History() {
@@ -77,6 +92,7 @@ void History::row(std::span<const double> values) {
   }
   line += '\n';
   if (std::fwrite(line.data(), 1, line.size(), file_) != line.size()) failed(path_);
+  ++rows_;
   if (std::chrono::steady_clock::now() - flushed_ > std::chrono::seconds(1)) flush();
 }
 

@@ -147,7 +147,7 @@ std::string Group::read_text_attribute(const std::string& name) const {
 // ----------------------------------------------------------------------------------------------------------------
 
 template <Value T>
-void Group::write(const std::string& name, std::span<const T> mine, int columns) const {
+void Group::write(const std::string& name, std::span<const T> mine, int columns, Packing packing) const {
   const hsize_t width = hsize_t(columns), rows = mine.size() / width;
   hsize_t before = 0, total = 0;
   const std::vector<uint64_t> all = shared_->comm.gather_all(std::vector<uint64_t>{rows});
@@ -159,7 +159,7 @@ void Group::write(const std::string& name, std::span<const T> mine, int columns)
   const hsize_t dims[2] = {total, width}, start[2] = {before, 0}, count[2] = {rows, width};
   const Handle space = owned(H5Screate_simple(rank, dims, nullptr), H5Sclose, "sizing " + name);
   const Handle layout = owned(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "layout of " + name);
-  if (int64_t(total * width) > compress_above) {
+  if (packing == Packing::compressed && int64_t(total * width) > compress_above) {
     const hsize_t chunk[2] = {std::min<hsize_t>(total, std::max<hsize_t>(1, hsize_t(chunk_items) / width)), width};
     check(H5Pset_chunk(layout.get(), rank, chunk), "chunks of " + name);
     check(H5Pset_shuffle(layout.get()), "shuffle of " + name);
@@ -213,7 +213,7 @@ std::vector<T> Group::read(const std::string& name, int64_t first, int64_t count
 #define BW_INSTANTIATE(T)                                                           \
   template void Group::attribute<T>(const std::string&, std::span<const T>) const;  \
   template std::vector<T> Group::read_attribute<T>(const std::string&) const;       \
-  template void Group::write<T>(const std::string&, std::span<const T>, int) const; \
+  template void Group::write<T>(const std::string&, std::span<const T>, int, Packing) const; \
   template std::vector<T> Group::read<T>(const std::string&, int64_t, int64_t) const;
 BW_INSTANTIATE(double)
 BW_INSTANTIATE(float)

@@ -65,10 +65,11 @@ class Group {
   std::vector<T> read_attribute(const std::string& name) const;
   std::string read_text_attribute(const std::string& name) const;
 
+  enum class Packing { plain, compressed };
   /// This rank's rows of `columns` numbers each; 1: a one-dimensional array. Large arrays are compressed (chunks,
-  /// shuffle, gzip 1).
+  /// shuffle, gzip 1) unless plain.
   template <Value T>
-  void write(const std::string& name, std::span<const T> mine, int columns = 1) const;
+  void write(const std::string& name, std::span<const T> mine, int columns = 1, Packing packing = Packing::compressed) const;
   template <Value T>
   void write(const std::string& name, const std::vector<T>& mine, int columns = 1) const {
     write(name, std::span<const T>(mine), columns);

@@ -62,3 +62,25 @@ TEST(History, resumes_after_a_restart) {
   EXPECT_THROW(History::resume(path, others, 1), InputError);
   EXPECT_EQ(text_of(path), "t [s],energy [J]\n0,0\n0.1,1\n0.2,2\n0.3,33\n");
 }
+
+TEST(History, resumes_by_number_of_rows) {
+  const std::string path = testing::TempDir() + "bw_history_rows.csv";
+  int64_t rows = 0;
+  {
+    History h(path, columns);
+    for (int i = 0; i < 5; ++i) {
+      h.row({i / 3.0, 1.0 * i});  // the text is rounded: a time could not tell
+      if (i == 2) rows = h.rows();
+    }
+    EXPECT_EQ(h.rows(), 5);
+  }
+  {
+    History h = History::resume_rows(path, columns, rows);
+    EXPECT_EQ(h.rows(), 3);
+    h.row({1, 33});
+    EXPECT_EQ(h.rows(), 4);
+  }
+  EXPECT_EQ(text_of(path), "t [s],energy [J]\n0,0\n0.333333333333,1\n0.666666666667,2\n1,33\n");
+  std::remove(path.c_str());
+  EXPECT_EQ(History::resume_rows(path, columns, 7).rows(), 0);
+}
