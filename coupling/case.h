@@ -11,7 +11,7 @@ namespace bw::coupling {
 enum class Scheme : int { none = 0, fluid_first = 1, box1 = 2 };
 
 struct CouplingCase {
-  std::string scheme = "fluid_first";
+  std::string scheme = "fluid_first";  ///< empty: no opinion (a fluid that follows either)
   double reference_pressure = 101325;  ///< Pa; absolute pressure that the solid feels as none
   double window_max = 0;               ///< s; 0: the fluid's time step alone decides
   double added_mass = 0.2;             ///< longest window in (areal mass) / (fluid's impedance) of a face
@@ -41,7 +41,10 @@ struct CouplingCase {
     k.expect(silence_limit > 0, "silence_limit", "a time > 0");
     k.expect(join_limit > 0, "join_limit", "a time > 0");
   }
-  Scheme kind() const { return scheme == "box1" ? Scheme::box1 : Scheme::fluid_first; }
+  Scheme kind() const {
+    if (scheme.empty()) return Scheme::none;
+    return scheme == "box1" ? Scheme::box1 : Scheme::fluid_first;
+  }
 };
 
 }  // namespace bw::coupling

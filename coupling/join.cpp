@@ -54,9 +54,8 @@ std::vector<JoinBlock> ask_all(const Comm& world, const JoinBlock& me, double li
 
 }  // namespace
 
-Joined join(const Session& session, Role role, const CouplingCase& cs) {
+Joined join(const Comm& world, Role role, const CouplingCase& cs) {
   const Timed timed("join", Timed::waiting);
-  const Comm world = session.world();
   if (world.size() == 1) return {world, nullptr};
   set_notice(" before the programs had joined");
 

@@ -15,6 +15,9 @@ struct Joined {
 
 /// Collective over the world, in any order of programs on the command line. Call it when the input has been read and
 /// checked: a program that dies before it joins is noticed (at once if it aborts, at case.join_limit if it hangs).
-Joined join(const Session& session, Role role, const CouplingCase& cs);
+Joined join(const Comm& world, Role role, const CouplingCase& cs);
+inline Joined join(const Session& session, Role role, const CouplingCase& cs) {
+  return join(session.world(), role, cs);
+}
 
 }  // namespace bw::coupling

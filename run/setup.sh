@@ -72,7 +72,7 @@ build() {
   jobs=$(nproc)
   memory_gb=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo 2> /dev/null || echo 4)
   (( jobs > memory_gb )) && jobs=$(( memory_gb > 1 ? memory_gb : 1 ))  # a compiler job takes up to 1 GB
-  local options=() targets=(--target csd cfd) what="csd and cfd"
+  local options=() targets=(--target csd cfd breakwave_coupling) what="csd, cfd and the coupling library"
   if [[ $tests == ON ]]; then
     options=(-DBREAKWAVE_TESTS=ON) targets=() what="csd, cfd and the tests"
   elif [[ ! -f build/CMakeCache.txt ]]; then

@@ -24,3 +24,7 @@ if(TARGET bw_coupling)
              $<TARGET_FILE_DIR:csd> ${CMAKE_SOURCE_DIR}/run/cases/piston/case.toml ${CMAKE_CURRENT_BINARY_DIR}/programs)
   endif()
 endif()
+if(TARGET breakwave_coupling)
+  add_test(NAME coupled_other_fluids COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/other_fluids.py
+           ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/other_fluids)
+endif()
