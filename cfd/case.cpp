@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <set>
+
 #include "cfd/eos/library.h"
 
 namespace bw::cfd {
@@ -56,7 +58,12 @@ void FluidCase::describe(Keys& k) {
   k.tables("inflow", inflow, "states of sides declared \"inflow\"");
   k.tables("burn", burn, "programmed burn of an explosive");
   k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
-  k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv");
+  k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv; what they measured: fluid_gauges.json");
+  k.tables("plane", plane, "slices through time, and maps of peak overpressure and impulse on them");
+  k.table("map", map, "peak overpressure, impulse, arrival and duration in the whole domain: map_*.vtkhdf at the end");
+  k.optional("arrival_overpressure", arrival_overpressure, dim::pressure,
+             "of gauges, planes and the map: a wave has arrived when it passes this; 0: 1 % of the pressure there at the start");
+  k.expect(arrival_overpressure >= 0, "arrival_overpressure", "a positive pressure, or 0");
   k.tables("line", line, "profiles along lines, at the times of the field files and at the end");
   k.table("fields", fields, "restricts field files to a part of the domain; absent: all of it");
   if (!k.is_manual()) check(k);
@@ -124,6 +131,14 @@ void FluidCase::check(Keys& k) const {
   };
   for (const auto& g : gauge)
     if (!inside(g.position)) throw InputError(fmt::format("{}: expected a point inside the domain", g.place));
+  for (const auto* named : {"gauge", "plane"}) {
+    std::set<std::string> names;
+    const auto add = [&](const auto& list) {
+      for (const auto& item : list)
+        if (!names.insert(item.name).second) throw InputError(fmt::format("{}: expected a name of its own, there are two \"{}\"", item.place, item.name));
+    };
+    named[0] == 'g' ? add(gauge) : add(plane);
+  }
   for (const auto& l : line)
     if (!inside(l.from) || !inside(l.to)) throw InputError(fmt::format("{}: expected a line inside the domain", l.place));
 }

@@ -9,6 +9,7 @@
 #include "cfd/amr/criteria.h"
 #include "cfd/embed/body.h"
 #include "cfd/medium.h"
+#include "cfd/records_case.h"
 #include "cfd/regions.h"
 #include "common/app/cli.h"
 #include "coupling/case.h"
@@ -147,17 +148,6 @@ struct BurnCase {
   }
 };
 
-struct GaugeCase {
-  std::string name, place;
-  Vec3 position;
-  template <class K>
-  void describe(K& k) {
-    k.required("name", name, "names its columns in fluid_gauges.csv");
-    k.required("position", position, dim::length, "where, inside the domain; the value is that of its cell");
-    place = k.where("position");
-  }
-};
-
 struct LineCase {
   std::string name, place;
   Vec3 from, to;
@@ -223,6 +213,9 @@ struct FluidCase {
   std::vector<BodyCase> body;
   std::vector<GaugeCase> gauge;
   std::vector<LineCase> line;
+  std::vector<PlaneCase> plane;
+  std::optional<MapCase> map;
+  double arrival_overpressure = 0;
   std::optional<FieldsCase> fields;
 
   void describe(Keys& k);

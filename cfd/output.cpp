@@ -36,17 +36,6 @@ std::vector<History::Column> history_columns(const Case& cs) {
   return c;
 }
 
-std::vector<History::Column> gauge_columns(const Case& cs) {
-  std::vector<History::Column> c{{"t", "s"}};
-  for (const GaugeCase& g : cs.fluid.gauge) {
-    c.push_back({g.name + " pressure", "Pa"});
-    c.push_back({g.name + " impulse", "Pa s"});
-    c.push_back({g.name + " density", "kg/m^3"});
-    c.push_back({g.name + " speed", "m/s"});
-  }
-  return c;
-}
-
 }  // namespace
 
 double stored_energy(const Model& m) {
@@ -79,17 +68,15 @@ Output::Output(const Case& cs, const Model& m, double t_end)
     : case_(cs),
       t_end_(t_end),
       root_(m.forest.comm().root()),
+      folder_(cs.run.output.directory),
+      records_(cs, m),
       series_(cs.run.output.directory, "fluid"),
       fields_(cs.run.output.fields_every, Schedule::Zero::never),
       rows_(cs.run.output.history_every, Schedule::Zero::every_step),
       progress_(t_end, cs.run.time.max_steps),
-      impulse_(cs.fluid.gauge.size(), 0.0),
-      p_gauge_(cs.fluid.gauge.size(), 0.0),
       start_(std::chrono::steady_clock::now()) {
-  make_folder(cs.run.output.directory);
   if (root_) {
     history_.emplace(cs.run.output.directory + "/fluid_history.csv", history_columns(cs));
-    if (!cs.fluid.gauge.empty()) gauges_.emplace(cs.run.output.directory + "/fluid_gauges.csv", gauge_columns(cs));
   }
 }
 
@@ -115,29 +102,13 @@ double Output::next_time(double t) const {
   return next;
 }
 
-void Output::write_due(const Model& m, const Books& books) {
-  write_gauges(m);
+void Output::write_due(Model& m, const Books& books) {
+  records_.step(m);
   if (rows_.due(m.state.t)) write_row(m, books);
   if (fields_.due(m.state.t)) {
     write_fields(m);
     write_lines(m);
   }
-}
-
-/// Every step is integrated; rows are written with those of the history.
-void Output::write_gauges(const Model& m) {
-  if (case_.fluid.gauge.empty() || m.state.t == t_gauges_) return;
-  const double dt = t_gauges_ < 0 ? 0 : m.state.t - t_gauges_;
-  t_gauges_ = m.state.t;
-  std::vector<double> row{m.state.t};
-  for (size_t g = 0; g < case_.fluid.gauge.size(); ++g) {
-    const PointValues w = at(m, case_.fluid.gauge[g].position);
-    if (p_start_.size() <= g) p_start_.push_back(w.p), p_gauge_[g] = w.p;
-    impulse_[g] += 0.5 * dt * (w.p + p_gauge_[g] - 2 * p_start_[g]);
-    p_gauge_[g] = w.p;
-    for (double value : {w.p, impulse_[g], w.rho, norm(w.v)}) row.push_back(value);
-  }
-  if (gauges_) gauges_->row(row);
 }
 
 void Output::write_row(const Model& m, const Books& books) {
@@ -218,14 +189,15 @@ void Output::tick(const Model& m, double dt, size_t active_blocks) {
   });
 }
 
-void Output::finish(const Model& m, const Books& books, const std::string& status, const std::string& message) {
+void Output::finish(Model& m, const Books& books, const std::string& status, const std::string& message) {
   progress_.finish();
   if (status != "failed") {
-    write_gauges(m);
+    records_.finish(m);
     write_row(m, books);
     if (case_.run.output.fields_every > 0) write_fields(m);
     write_lines(m);
   }
+  records_.write_summary();
   Summary s;
   s.case_file = case_.file, s.title = case_.run.title, s.status = status, s.message = message;
   s.ranks = m.forest.comm().size(), s.threads = thread_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run writes: fluid_history.csv, fluid_gauges.csv, fluid_line_*.csv, fluid_*.vtkhdf with their series,
+// What a run writes: fluid_history.csv, fluid_line_*.csv, fluid_*.vtkhdf with their series, what cfd/records.h keeps,
 // fluid_summary.json; and signs of life.
 #pragma once
 #include <chrono>
@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "cfd/records.h"
 #include "cfd/books.h"
 #include "common/app/progress.h"
 #include "common/io/csv.h"
+#include "common/io/file.h"
 #include "common/io/vtkhdf.h"
 
 namespace bw::cfd {
@@ -18,11 +20,11 @@ class Output {
  public:
   Output(const Case& cs, const Model& m, double t_end);
   /// What is due at the state's time. Collective, as all below.
-  void write_due(const Model& m, const Books& books);
+  void write_due(Model& m, const Books& books);
   void tick(const Model& m, double dt, size_t active_blocks);
   /// The next time that a step has to hit, at most the end.
   double next_time(double t) const;
-  void finish(const Model& m, const Books& books, const std::string& status, const std::string& message);
+  void finish(Model& m, const Books& books, const std::string& status, const std::string& message);
 
  private:
   struct PointValues {
@@ -31,7 +33,6 @@ class Output {
   };
   PointValues at(const Model& m, const Vec3& x) const;
   void write_row(const Model& m, const Books& books);
-  void write_gauges(const Model& m);
   void write_fields(const Model& m);
   void write_lines(const Model& m);
   double updates(const Model& m) const;
@@ -39,13 +40,15 @@ class Output {
   const Case& case_;
   double t_end_;
   bool root_;
-  std::optional<History> history_, gauges_;
+  struct Folder {
+    explicit Folder(const std::string& path) { make_folder(path); }
+  } folder_;  ///< before what opens files in it
+  std::optional<History> history_;
+  Records records_;
   VtkSeries series_;
   Schedule fields_, rows_;
   Progress progress_;
-  double dt_ = 0, t_row_ = -1, t_gauges_ = -1, t_fields_ = -1, active_share_ = 0;
-  std::vector<double> impulse_, p_gauge_;  ///< [gauge] Pa s of overpressure, Pa
-  std::vector<double> p_start_;
+  double dt_ = 0, t_row_ = -1, t_fields_ = -1, active_share_ = 0;
   FluidSums first_, last_;
   double p_max_ = 0;
   std::chrono::steady_clock::time_point start_;

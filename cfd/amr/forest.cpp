@@ -93,6 +93,7 @@ int Forest::find_leaf(const Leaf& leaf) const {
 }
 
 void Forest::make_tables() {
+  ++version_;
   leaf_ = trees_.leaves();
   local_ = int(leaf_.size());
   leaf_.insert(leaf_.end(), trees_.ghosts().begin(), trees_.ghosts().end());

@@ -52,6 +52,8 @@ class Forest {
   const Comm& comm() const { return comm_; }
   const GridSize& size() const { return size_; }
   int levels() const { return size_.levels; }
+  /// Another number whenever the blocks or their ranks have changed.
+  int64_t version() const { return version_; }
   /// Cells of any block, and the cell size of level 0, of the finest level, of a block.
   const BlockShape& shape() const { return shapes_.front(); }
   const BlockShape& finest_shape() const { return shapes_.back(); }
@@ -129,6 +131,7 @@ class Forest {
   std::vector<BlockShape> shapes_;      ///< [level]
   Trees trees_;
   int local_ = 0;
+  int64_t version_ = 0;
   std::vector<Leaf> leaf_;                    ///< local, then ghosts
   std::unordered_map<uint64_t, int> number_;  ///< of a leaf
   std::vector<int> neighbours_;               ///< [local][27]

@@ -64,6 +64,7 @@ class Saved {
     same(name, std::vector<T>{value});
   }
   Saved section(const std::string& name) const { return Saved(group_.group(name), comm_); }
+  const Comm& comm() const { return comm_; }
 
  private:
   template <Record T>

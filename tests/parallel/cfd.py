@@ -24,7 +24,9 @@ CHARGE = ("[time]\nend = \"24 us\"\n" + output("8 us", "1 us")
           + '[[fluid.region]]\nshape = {kind = "sphere", centre = [0.07, 0.05, 0.06], radius = 0.03}\nmaterial = "TNT"\nunburnt = true\npressure = 101325.0\n'
           + '[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.07, 0.05, 0.06]]\n'
           + '[[fluid.body]]\nname = "plate"\nshape = {kind = "box", lower = [0.15, 0.03, 0.02], upper = [0.17, 0.1, 0.12]}\n'
-          + 'motion = {kind = "velocity", value = [300.0, 0.0, 0.0]}\n')
+          + 'motion = {kind = "velocity", value = [300.0, 0.0, 0.0]}\n'
+          + '[[fluid.gauge]]\nname = "near"\nposition = [0.101, 0.05, 0.06]\n[[fluid.gauge]]\nname = "corner"\nposition = [0.1, 0, 0]\n'
+          + '[[fluid.plane]]\nname = "cut"\nnormal = "z"\nat = 0.05\nevery = "6 us"\ncells = [40, 20]\n[fluid.map]\n')
 LAYOUTS = [("1", 1), ("1", 2), ("2", 1), ("3", 1)]
 
 
