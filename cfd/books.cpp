@@ -7,13 +7,32 @@
 
 namespace bw::cfd {
 
+namespace {
+
+FluidSums shells(const Model& m, int b) {
+  FluidSums sum;
+  const BlockShape& s = m.forest.shape(b);
+  for (int i = 0; i < s.n[0]; ++i) {
+    const double volume = s.cell_volume(m.forest.lower(b).x, i);
+    for (int q = 0; q < Cons::count; ++q) sum.U[q] += m.state.block(b, q)[i] * volume;
+    sum.volume += volume;
+  }
+  return sum;
+}
+
+}  // namespace
+
 void Books::refresh(const Model& m, const std::vector<int>& blocks) {
   const int cells = m.forest.shape().cells();
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t n) {
     const int b = blocks[size_t(n)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
-    const double volume = m.forest.shape(b).cell_volume();
     FluidSums sum;
+    if (m.forest.shape().radial()) {
+      per_block_[size_t(b)] = shells(m, b);
+      return;
+    }
+    const double volume = m.forest.shape(b).cell_volume();
     for (int q = 0; q < Cons::count; ++q) {
       const double* U = m.state.block(b, q);
       Pack packs(0.0);

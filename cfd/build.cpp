@@ -107,6 +107,30 @@ GhostRules ghost_rules(const Boundary& b) {
   return rules;
 }
 
+/// Share of a shell's volume inside the shape, whose edges lie at the zeros of distance along the radius.
+double share_of_shell(const auto& shape, double lower, const BlockShape& s, int i) {
+  constexpr int samples = 8;
+  const double r0 = lower + i * s.h.x;
+  const auto inside = [&](double r) { return shape.distance({r, 0, 0}) < 0; };
+  const auto volume = [&](double a, double b) {
+    BlockShape part = s;
+    part.h.x = b - a;
+    return part.cell_volume(a, 0);
+  };
+  double share = 0;
+  int whole = 0;
+  for (int c = 0; c < samples; ++c) {
+    double a = r0 + c * s.h.x / samples, b = r0 + (c + 1) * s.h.x / samples;
+    const bool in_a = inside(a), in_b = inside(b);
+    if (in_a && in_b) share += volume(a, b), ++whole;
+    if (in_a == in_b) continue;
+    const double from = a, to = b;
+    for (int bisection = 0; bisection < 60; ++bisection) (inside(0.5 * (a + b)) == in_a ? a : b) = 0.5 * (a + b);
+    share += in_a ? volume(from, a) : volume(b, to);
+  }
+  return whole == samples ? 1 : share / volume(r0, r0 + s.h.x);
+}
+
 /// Share of a cell inside the shape, from samples^3 points where its edge may pass through the cell.
 double share_inside(const auto& shape, const Vec3& centre, const BlockShape& s) {
   double half_diagonal = 0;
@@ -146,7 +170,8 @@ void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
       for (int j = 0; j < s.n[1]; ++j)
         for (int i = 0; i < s.n[0]; ++i) {
           const Vec3 x = lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
-          if (const double f = share_inside(shape, x, s); f > 0) blend(m.state, int(b), s.at(k, j, i), U, f);
+          const double f = s.radial() ? share_of_shell(shape, lower.x, s, i) : share_inside(shape, x, s);
+          if (f > 0) blend(m.state, int(b), s.at(k, j, i), U, f);
         }
   });
 }
@@ -244,7 +269,7 @@ void inspect(Model& m, const std::vector<int>& blocks) {
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t i) {
     const int b = blocks[size_t(i)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
-    m.state.info[size_t(b)] = inspect_block(m.setup.medium, m.forest.shape(b), m.state.block(b), blocked.empty() ? nullptr : blocked.data());
+    m.state.info[size_t(b)] = inspect_block(m.setup.medium, m.forest.shape(b), m.forest.lower(b), m.state.block(b), blocked.empty() ? nullptr : blocked.data());
   });
 }
 

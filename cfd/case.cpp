@@ -38,16 +38,25 @@ void MaterialCase::resolve(Keys& k) {
 void FluidCase::describe(Keys& k) {
   std::vector<int> cells(grid.cells.begin(), grid.cells.end());
   k.optional("threads", threads, "threads of the fluid program; 0: what OMP_NUM_THREADS or the machine gives");
-  k.required("lower", grid.lower, dim::length, "lower corner of the domain");
-  k.required("upper", grid.upper, dim::length, "upper corner of the domain");
-  k.required("cells", cells, "cells in x, y, z; 1 leaves a direction out: 1-D and 2-D runs");
+  std::string geometry = "planar";
+  k.choice("geometry", geometry, {"planar", "cylindrical", "spherical"},
+           "planar: a box; cylindrical, spherical: a 1-D run along the radius, which is x, of a cylinder of 1 m length or a whole sphere");
+  const bool planar = geometry == "planar";
+  if (planar || k.is_manual()) {
+    k.required("lower", grid.lower, dim::length, "lower corner of the domain (planar)");
+    k.required("upper", grid.upper, dim::length, "upper corner of the domain (planar)");
+  }
+  if (!planar || k.is_manual()) use_radius(k, geometry == "spherical" ? Geometry::spherical : Geometry::cylindrical);
+  k.required("cells", cells, "cells in x, y, z; 1 leaves a direction out: 1-D and 2-D runs; along a radius [cells, 1, 1]");
   k.expect(cells.size() == 3, "cells", "three numbers of cells");
   for (size_t d = 0; d < 3 && d < cells.size(); ++d) {
     k.expect(cells[d] > 0, "cells", "positive numbers");
     k.expect(cells[d] != 2 && cells[d] != 3, "cells", "1 or at least 4 cells in a direction");
     k.expect(grid.upper[int(d)] > grid.lower[int(d)], "upper", "a point above lower in x, y and z");
     grid.cells[d] = cells[d];
+    k.expect(planar || d == 0 || cells[d] == 1, "cells", "[cells, 1, 1] along a radius");
   }
+  k.expect(planar || cells[0] > 1, "cells", "at least 4 cells along the radius");
   k.table("amr", amr, "blocks of cells that are halved where the flow or a wall needs it");
   if (amr) use_levels(k);
   k.table("boundary", boundary, "the six sides of the domain");
@@ -69,6 +78,29 @@ void FluidCase::describe(Keys& k) {
   if (!k.is_manual()) check(k);
   // the flow kernels carry stored energy with material 1
   if (material.size() == 2 && !burn.empty() && material[1].name == burn[0].material) std::swap(material[0], material[1]);
+}
+
+void FluidCase::use_radius(Keys& k, Geometry geometry) {
+  double inner = 0, outer = 0;
+  k.required("radius", outer, dim::length, "outer radius of the domain (cylindrical, spherical)");
+  k.optional("inner_radius", inner, dim::length, "inner radius, where x_lower is; 0: the centre, a wall (cylindrical, spherical)");
+  k.expect(inner >= 0, "inner_radius", "a length, zero or positive");
+  k.expect(outer > inner, "radius", "a length above inner_radius");
+  if (k.is_manual()) return;
+  grid.geometry = geometry;
+  grid.lower = {inner, -0.5, -0.5}, grid.upper = {outer, 0.5, 0.5};
+}
+
+void FluidCase::check_radial(Keys& k) const {
+  const bool at_centre = grid.lower.x == 0;
+  if (boundary.side[0] == "periodic" || (at_centre && boundary.side[0] != "wall"))
+    k.fail("boundary", at_centre ? "x_lower = \"wall\", the centre" : "wall, outflow or inflow along a radius");
+  for (size_t s = 2; s < 6; ++s)
+    if (boundary.side[s] != "wall") k.fail("boundary", "x_lower and x_upper alone along a radius");
+  if (!body.empty()) k.fail("body", "no bodies along a radius");
+  if (amr) k.fail("amr", "no levels along a radius: its cells are cheap");
+  for (const auto& r : region)
+    if (r.velocity.y != 0 || r.velocity.z != 0) throw InputError(fmt::format("{}: expected a velocity along x, the radius", r.place));
 }
 
 void FluidCase::use_levels(Keys& k) {
@@ -124,6 +156,7 @@ void FluidCase::check(Keys& k) const {
     if (std::none_of(region.begin(), region.end(), [&](const auto& r) { return r.material == b.material && r.unburnt; }))
       throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
+  if (grid.geometry != Geometry::planar) check_radial(k);
   const auto inside = [&](const Vec3& x) {
     for (int d = 0; d < 3; ++d)
       if (x[d] < grid.lower[d] || x[d] > grid.upper[d]) return false;

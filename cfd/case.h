@@ -223,6 +223,8 @@ struct FluidCase {
   int material_index(const std::string& name, const std::string& place) const;
 
  private:
+  void use_radius(Keys& k, Geometry geometry);
+  void check_radial(Keys& k) const;
   void use_levels(Keys& k);
   void check(Keys& k) const;
 };

@@ -55,9 +55,10 @@ double stored_energy(const Model& m) {
         for (int i = 0; i < s.n[0]; ++i) {
           const size_t cell = s.at(k, j, i);
           if (!(arho[cell] > 0) || (!blocked.empty() && blocked[cell])) continue;
-          sum += arho[cell] * burn.stored(lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z}, m.state.t);
+          sum += arho[cell] * burn.stored(lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z}, m.state.t) *
+                 s.cell_volume(lower.x, i);
         }
-    part[size_t(b)] = sum * s.cell_volume();
+    part[size_t(b)] = sum;
   });
   double total = 0;
   for (double p : m.forest.comm().size() == 1 ? part : m.forest.comm().gather_all(part)) total += p;

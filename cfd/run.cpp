@@ -194,6 +194,8 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
 }  // namespace
 
 int run(const Case& cs, const Comm& comm, coupling::Channel* channel) {
+  if (channel && cs.fluid.grid.geometry != Geometry::planar)
+    throw InputError(fmt::format("{}: fluid.geometry: expected \"planar\" in a coupled run; start it from a run along a radius with [fluid.start_from]", cs.file));
   Model m(comm, cs);
   return channel ? run_coupled(cs, m, *channel) : run_alone(cs, m);
 }

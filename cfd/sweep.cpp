@@ -104,7 +104,7 @@ void Sweep::rest_at_sides(const State& s, int block, Booked& booked) const {
       double U[Cons::count], W[Prim::stored];
       std::copy_n(s.info[size_t(block)].U, int(Cons::count), U);
       std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
-      const double area = shape.cell_volume() / shape.h[d] * (shape.cells() / shape.n[d]);
+      const double area = shape.side_volume(forest_.lower(block).x, d, upper) / shape.h[d] * (shape.cells() / shape.n[d]);
       booked.side[2 * d + upper][Cons::mom + d] += W[Prim::p] * dt_ * area;
     }
 }
@@ -141,7 +141,12 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   change.keep_sides = fluxes_.sides(block);
   change.make_sides();
   const int m = patch.material;
-  if (m != 0 && setup_.medium.is_gas[m - 1])
+  if (shape.radial()) {
+    unsigned mirror = 0;
+    for (int upper = 0; upper < 2; ++upper)
+      if (setup_.boundary.side[upper].kind == SideKind::wall && forest_.at_side(block, 0, upper)) mirror |= 1u << upper;
+    advance_radial(patch, setup_.medium, dt_, mirror, space.radial, change);
+  } else if (m != 0 && setup_.medium.is_gas[m - 1])
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
     space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);
@@ -151,8 +156,10 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   marks_[size_t(block)].clear();
   result_[size_t(block)] =
       update_block(in, patch, s.block(block), change, s.spare(block), marks_[size_t(block)], booked);
-  for (int side = 0; side < 6; ++side)
-    for (int q = 0; q < Cons::count; ++q) booked.side[side][q] += change.side[side][q] * shape.cell_volume();
+  for (int side = 0; side < 6; ++side) {
+    const double volume = shape.side_volume(patch.lower.x, side / 2, side % 2);
+    for (int q = 0; q < Cons::count; ++q) booked.side[side][q] += change.side[side][q] * volume;
+  }
   booked.scaled_cells += change.scaled_cells;
   booked.updates += shape.cells();
 }

@@ -10,6 +10,7 @@
 #include "cfd/amr/gather.h"
 #include "cfd/amr/update.h"
 #include "cfd/embed/walls.h"
+#include "cfd/amr/radial.h"
 #include "cfd/scheme/block_kernel.h"
 
 namespace bw::cfd {
@@ -81,6 +82,7 @@ class Sweep {
     BlockChange change;
     std::optional<BlockKernel<GasFlow, Pack>> gas;
     std::optional<BlockKernel<MixedFlow, Pack>> mixed;
+    RadialSpace radial;
     PatchCuts cuts;
     std::unique_ptr<CutScheme> cut_gas[2], cut_mixed;  ///< made when there are walls
     std::vector<uint8_t> blocked;

@@ -10,11 +10,13 @@ namespace bw::cfd {
 
 namespace {
 
-/// Relative cost per cell of blocks that are n long in a direction; x runs along packs.
-double block_cost(int n, bool x) {
+/// Relative cost per cell of blocks that are n long in a direction; x runs along packs. A row of cells alone fills no
+/// cache.
+double block_cost(int n, bool x, bool row) {
   const double width = x ? double((n + Pack::size - 1) / Pack::size * Pack::size) / n : 1.0;  // hanging packs
   const double ghosts = (n + 2.5) / n;  // gather and half steps of neighbours' cells
-  const double cache = n > 32 ? 1 + 0.2 * std::log2(n / 32.0) : 1.0;
+  const int fits = row ? 128 : 32;
+  const double cache = n > fits ? 1 + 0.2 * std::log2(double(n) / fits) : 1.0;
   const double threads = n > 16 ? 1 + 0.02 * (n - 16) / 16.0 : 1.0;  // fewer blocks to share out and to skip
   return width * ghosts * cache * threads;
 }
@@ -32,6 +34,7 @@ Leaf parent_of(Leaf leaf) {
 
 std::vector<BlockShape> shapes_of(const GridSize& size) {
   BlockShape s;
+  s.geometry = size.geometry;
   s.n = size.block;
   for (size_t d = 0; d < 3; ++d)
     if (s.n[d] == 0) s.n[d] = (size.levels > 0 ? choose_block(size.cells, size.levels) : choose_block(size.cells))[d];
@@ -58,10 +61,11 @@ std::array<int, 3> blocks_of(const GridSize& size, const BlockShape& s) {
 
 std::array<int, 3> choose_block(const std::array<int, 3>& cells) {
   std::array<int, 3> n;
+  const bool row = cells[1] == 1 && cells[2] == 1;
   for (size_t d = 0; d < 3; ++d) {
     n[d] = cells[d];
     for (int m = 2; m < cells[d]; ++m)
-      if (cells[d] % m == 0 && block_cost(m, d == 0) < block_cost(n[d], d == 0)) n[d] = m;
+      if (cells[d] % m == 0 && block_cost(m, d == 0, row) < block_cost(n[d], d == 0, row)) n[d] = m;
   }
   return n;
 }
@@ -72,7 +76,7 @@ std::array<int, 3> choose_block(const std::array<int, 3>& cells, int levels) {
     if (cells[d] == 1) n[d] = 1;
     for (int m = 8; m <= 16 && cells[d] > 1; m += 2)
       if (cells[d] % m == 0 && m % (1 << levels) == 0 &&
-          (n[d] == 0 || block_cost(m, d == 0) < block_cost(n[d], d == 0)))
+          (n[d] == 0 || block_cost(m, d == 0, false) < block_cost(n[d], d == 0, false)))
         n[d] = m;
   }
   return n;

@@ -21,6 +21,7 @@ struct GridSize {
   std::array<bool, 3> periodic{false, false, false};
   int levels = 0;                     ///< the finest level; 0: uniform
   std::array<int, 3> block{0, 0, 0};  ///< cells per block and direction; 0: choose_block
+  Geometry geometry = Geometry::planar;
 };
 
 /// Cells per block and direction: the divisor of `cells` that costs least in ghosts, hanging packs and cache. A count

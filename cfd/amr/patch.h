@@ -15,6 +15,16 @@ namespace bw::cfd {
 
 inline constexpr int ghost_layers = 2;
 
+/// What a row of cells stands for: slabs, shells of a cylinder of height h.z, or shells of a whole sphere. In the
+/// latter two x is the radius, the only direction that is used.
+enum class Geometry { planar, cylindrical, spherical };
+
+/// Area of the cylinder (per height) or sphere of radius r; 1 where planar.
+inline double area_at(Geometry g, double r) {
+  constexpr double pi = 3.14159265358979323846;
+  return g == Geometry::spherical ? 4 * pi * r * r : g == Geometry::cylindrical ? 2 * pi * r : 1;
+}
+
 /// Cells of one block and of its storage. The same for all blocks of a run, but for the cell size of their level.
 struct BlockShape {
   std::array<int, 3> n{1, 1, 1};                  ///< cells per direction
@@ -24,7 +34,25 @@ struct BlockShape {
   int ghost(int d) const { return used[d] ? ghost_layers : 0; }
   /// Place of (k, j, i) in the storage of one variable.
   size_t at(int k, int j, int i) const { return (size_t(k) * n[1] + j) * n[0] + i; }
+  Geometry geometry = Geometry::planar;
+  bool radial() const { return geometry != Geometry::planar; }
+  /// [m^3] of every cell; planar.
   double cell_volume() const { return h.x * h.y * h.z; }
+  /// [m^3] of a cell with place i along x of a block that begins at lower_x.
+  double cell_volume(double lower_x, int i) const {
+    if (!radial()) return cell_volume();
+    const double m =
+        lower_x + (i + 0.5) * h.x;  // the shell's mean area is that at its middle, and for a sphere a bit more
+    const double more = geometry == Geometry::spherical ? area_at(geometry, h.x) / 12 : 0;
+    return (area_at(geometry, m) + more) * h.x * (geometry == Geometry::cylindrical ? h.z : 1);
+  }
+  /// h times the area of one face of a side in direction d of a block that begins at lower_x: what a flux dt/h takes
+  /// from the domain there [m^3].
+  double side_volume(double lower_x, int d, bool upper) const {
+    if (!radial()) return cell_volume();
+    const double r = lower_x + (d == 0 && upper ? n[0] * h.x : 0.0);
+    return area_at(geometry, r) * h.x * (geometry == Geometry::cylindrical ? h.z : 1);
+  }
 };
 
 /// Distance in doubles between arrays that are walked side by side, at least n: multiples of a page would make them

@@ -132,10 +132,11 @@ class Update {
     double U[Cons::count], w[Prim::stored];
     for (int q = 0; q < Cons::count; ++q) U[q] = row[q][i];
     double p = pair_.to_primitive(U, w, floors_);
+    volume_ = shape_.cell_volume(lower_.x, i);
     const double rho = U[Cons::arho1] + U[Cons::arho2];
     if (std::isfinite(p) && rho >= floors_.rho && remove_trace(U, w, booked)) {
       p = pair_.to_primitive(U, w, floors_);
-      booked.cleaned[Cons::rhoE] += (row[Cons::arho1][i] - U[Cons::arho1]) * stored(k, j, i) * shape_.cell_volume();
+      booked.cleaned[Cons::rhoE] += (row[Cons::arho1][i] - U[Cons::arho1]) * stored(k, j, i) * volume_;
     }
     const bool stores_energy = U[Cons::arho1] > 0 && stored(k, j, i) > 0;
     const bool broken = !(U[Cons::arho1] + U[Cons::arho2] >= floors_.rho) || !(U[Cons::arho1] >= 0) ||
@@ -148,7 +149,7 @@ class Update {
     } else if (low) {
       const double before = U[Cons::rhoE];
       pair_.to_conserved(w, U);  // with p at its floor
-      booked.floor_energy += (U[Cons::rhoE] - before) * shape_.cell_volume();
+      booked.floor_energy += (U[Cons::rhoE] - before) * volume_;
       ++booked.floors;
     }
     for (int q = 0; q < Cons::count; ++q) row[q][i] = U[q];
@@ -188,7 +189,7 @@ class Update {
     double after[Cons::count];
     pair_.to_conserved(w, after);
     for (int q = 0; q < Cons::count; ++q) {
-      booked.cleaned[q] += (U[q] - after[q]) * shape_.cell_volume();
+      booked.cleaned[q] += (U[q] - after[q]) * volume_;
       U[q] = after[q];
     }
     return true;
@@ -199,6 +200,7 @@ class Update {
   const Floors& floors_;
   const BlockShape& shape_;
   Vec3 lower_;
+  double volume_ = 0;  ///< of the cell being mended [m^3]
 };
 
 /// One material, the same bits everywhere, no momentum?
@@ -219,6 +221,21 @@ void describe_block(const BlockShape& s, const double* U, bool whole, const Extr
     if (rest) rest = std::memcmp(U + size_t(q) * n, U + size_t(q) * n + 1, (n - 1) * sizeof(double)) == 0;
   }
   info.at_rest = rest;
+}
+
+/// Shells near the centre have more face for their volume than slabs: their share of the block's rate.
+template <class Pair>
+double rate_near_centre(const Pair& pair, const Floors& floors, const BlockShape& s, double lower, const double* U) {
+  double most = 0;
+  for (int i = 0; i < std::min(4, s.n[0]); ++i) {
+    double u[Cons::count], W[Prim::stored];
+    for (int q = 0; q < Cons::count; ++q) u[q] = U[q * s.n[0] + i];
+    pair.to_primitive(u, W, floors);
+    const double r = lower + i * s.h.x, faces = 0.5 * (area_at(s.geometry, r) + area_at(s.geometry, r + s.h.x)) * s.h.x;
+    const double height = s.geometry == Geometry::cylindrical ? s.h.z : 1;
+    most = std::max(most, faces * height / s.cell_volume(lower, i) * (std::abs(W[Prim::v]) + W[Prim::c]) / s.h.x);
+  }
+  return most;
 }
 
 /// Energy released (or carried in stored form): E += s(t0) arho1_old - s(t1) arho1_new.
@@ -286,16 +303,25 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
       },
       in.medium->mixture);
   describe_block(s, out, in.blocked == nullptr, extremes, result.info);
+  if (s.radial())
+    std::visit(
+        [&](const auto& pair) {
+          result.info.rate =
+              std::max(result.info.rate, rate_near_centre(pair, in.medium->floors, s, patch.lower.x, out));
+        },
+        in.medium->mixture);
   return result;
 }
 
-BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const double* U, const uint8_t* blocked) {
+BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const Vec3& lower, const double* U,
+                        const uint8_t* blocked) {
   UpdateInput in;
   in.medium = &medium;
   in.blocked = blocked;
   in.last_try = true;
   BlockChange none(shape);
   Patch patch(shape);
+  patch.lower = lower;
   Aligned<double> copy(size_t(shape.cells()) * Cons::count);
   std::vector<uint8_t> marks;
   Booked unused;

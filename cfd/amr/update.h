@@ -36,6 +36,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
                           double* out, std::vector<uint8_t>& marks, Booked& booked);
 
 /// The same without a change: what a state just made (initial, refilled) looks like.
-BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const double* U, const uint8_t* blocked);
+BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const Vec3& lower, const double* U,
+                        const uint8_t* blocked);
 
 }  // namespace bw::cfd

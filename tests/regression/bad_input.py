@@ -49,6 +49,7 @@ BURN = """\
 material = "TNT"
 points = [["80 mm", "5 mm", "5 mm"]]
 """
+RADIAL = FLUID.replace('lower = [0, 0, 0]\nupper = ["160 mm", "10 mm", "10 mm"]', 'geometry = "spherical"\nradius = "160 mm"')
 # a hexahedron with a corner pushed through the opposite one: no order of its nodes is right
 PUSHED_MSH = """\
 $MeshFormat
@@ -124,6 +125,14 @@ CASES = {
     "negative density, fluid": ("cfd", swap(FLUID, "density = 1.225", "density = -1.225"), r"density", {}),
     "no explosive to burn": ("cfd", FLUID + BURN, r"TNT", {}),
     "burn of a gas": ("cfd", FLUID + swap(BURN, '"TNT"', '"air"'), r"air|explosive", {}),
+    "corners along a radius": ("cfd", swap(RADIAL, "cells", "lower = [0, 0, 0]\ncells"), r"lower", {}),
+    "no radius": ("cfd", swap(RADIAL, 'radius = "160 mm"\n', ""), r"radius", {}),
+    "inner radius beyond": ("cfd", swap(RADIAL, "cells", 'inner_radius = "0.2 m"\ncells'), r"radius.*above inner_radius", {}),
+    "cells across a radius": ("cfd", swap(RADIAL, "[16, 1, 1]", "[16, 4, 1]"), r"cells.*radius", {}),
+    "open centre": ("cfd", swap(RADIAL, "cells", 'boundary = {x_lower = "outflow"}\ncells'), r"boundary.*centre", {}),
+    "flow across a radius": ("cfd", RADIAL + "velocity = [0, 1, 0]\n", r"velocity.*radius", {}),
+    "levels along a radius": ("cfd", RADIAL + "[fluid.amr]\nlevels = 1\nblock = 8\n", r"amr.*radius", {}),
+    "unknown geometry": ("cfd", swap(RADIAL, "spherical", "sphere"), r"spherical", {}),
     "Abaqus: unknown node": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:11: .*node 77",
                              {"a.inp": swap(INP, "6, 7, 8\n", "6, 77, 8\n")}),
     "Abaqus: duplicate element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:12: .*same nodes",
