@@ -23,6 +23,8 @@ class FluidSide {
   /// The next surface. false: the solid said BYE, which was answered; nothing may be sent afterwards.
   bool receive();
   const Window& window() const { return window_; }
+  /// As it came: the solid's books of the window before.
+  const StepBlock& step() const { return step_; }
   /// x at t0; v for the whole window, to be held constant (fluid_first: the gap's repayment comes on top, on the
   /// fluid's side).
   const WetSurface& surface() const { return surface_; }

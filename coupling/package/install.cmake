@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# libbreakwave_coupling for other programs, and what `cmake --install` puts where: programs, library, header, CMake package, pkg-config
+# libbreakwave_coupling and fsi-check for other programs, and what `cmake --install` puts where: programs, library, header, CMake package, pkg-config
 # file, Python module, protocol.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -19,8 +19,12 @@ set_target_properties(breakwave_coupling PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib
   PUBLIC_HEADER ${CMAKE_SOURCE_DIR}/coupling/breakwave_coupling.h)
 
-set_target_properties(csd cfd breakwave_coupling PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
-install(TARGETS csd cfd RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+file(GLOB check CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/coupling/check/*.cpp)
+add_executable(fsi-check ${check})
+target_link_libraries(fsi-check PRIVATE bw_coupling)
+
+set_target_properties(csd cfd fsi-check breakwave_coupling PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+install(TARGETS csd cfd fsi-check RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS breakwave_coupling EXPORT breakwave_coupling LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/breakwave_coupling)

@@ -97,7 +97,7 @@ class Surface:
         for name, shape in (("x", (n, 3)), ("v", (n, 3)), ("x_wall", (n, 3)), ("quads", (m, 4)), ("node_id", (n,)), ("node_parent", (n,)),
                             ("face_id", (m,)), ("body", (m,)), ("flags", (m,)), ("area", (m, 3)), ("centre", (m, 3))):
             values = getattr(raw, name)
-            setattr(self, name, np.ctypeslib.as_array(values, shape) if shape[0] else np.empty(shape))
+            setattr(self, name, np.ctypeslib.as_array(values, shape) if shape[0] else np.empty(shape, dtype=values._type_))
 
     @property
     def normal(self):

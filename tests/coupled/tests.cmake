@@ -27,4 +27,6 @@ endif()
 if(TARGET breakwave_coupling)
   add_test(NAME coupled_other_fluids COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/other_fluids.py
            ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/other_fluids)
+  add_test(NAME coupled_fsi_check COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/fsi_check.py
+           ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/fsi_check)
 endif()

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/check/scenario.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "common/app/error.h"
+#include "common/app/log.h"
+
+namespace bw::coupling::check {
+namespace {
+
+constexpr Scenario against_fluid[] = {
+    {.name = "rest", .expected = "a cube at rest in gas at rest: P = p0 on each face within 1e-6, no net force"},
+    {.name = "piston",
+     .expected = "the cube starts at a small speed: P - p0 = +rho c u in front, -rho c u behind, within a quarter "
+                 "(units, sign, gauge)"},
+    {.name = "co_moving", .expected = "a cube that swims with the program's own stream: P = p0 within 1e-3"},
+    {.name = "split",
+     .expected =
+         "the moving cube breaks in two, all orders turned: pressures follow the face ids, lips get finite ones"},
+    {.name = "degenerate", .expected = "quads without area and triangles among the faces: one finite P each"},
+    {.name = "empty", .expected = "a surface without faces: an answer without pressures"},
+    {.name = "vanish", .expected = "all faces die, later others are born: answers of the right length"},
+    {.name = "short_windows",
+     .expected = "windows a thousand times shorter than asked for elsewhere: t0 < t1 <= t1_max"},
+    {.name = "t_end", .expected = "the run ends at the smaller t_end with BYE both ways, exit code 0"},
+    {.name = "early_bye", .expected = "BYE instead of the first surface: answered, exit code 0"},
+    {.name = "turned", .expected = "the fluid comes first on the command line: the same", .turned = true},
+    {.name = "ranks_2", .expected = "two ranks: the same loads as one, bit for bit", .ranks = 2, .like = "ranks_1"},
+    {.name = "ranks_3", .expected = "three ranks: the same loads as one, bit for bit", .ranks = 3, .like = "ranks_1"},
+    {.name = "nan",
+     .expected = "a velocity that is not a number: both end with code 69",
+     .code = exit_bad_value,
+     .timed = true},
+    {.name = "index",
+     .expected = "a face that names a node that isn't there: code 69",
+     .code = exit_bad_value,
+     .timed = true},
+    {.name = "size", .expected = "too few positions: code 68", .code = exit_malformed, .timed = true},
+    {.name = "order", .expected = "a window that is left out: code 68", .code = exit_malformed, .timed = true},
+    {.name = "hash",
+     .expected = "a hash that isn't the connectivity's: code 68",
+     .code = exit_malformed,
+     .timed = true},
+    {.name = "version", .expected = "HELLO of major version 2: code 65", .code = exit_version, .timed = true},
+    {.name = "magic", .expected = "HELLO of another protocol: code 64", .code = exit_protocol, .timed = true},
+    {.name = "p_ref", .expected = "another reference pressure: code 66", .code = exit_disagreement, .timed = true},
+    {.name = "fail", .expected = "FAIL with code 42: the program ends with 42 too", .code = 42, .timed = true},
+    {.name = "silence",
+     .expected = "no surface for the silence limit of 2 s: code 75",
+     .code = exit_silence,
+     .timed = true,
+     .wait = short_silence},
+    {.name = "death",
+     .expected = "the solid dies without a word: the program is gone too, not code 0",
+     .code = -1,
+     .timed = true},
+};
+
+constexpr Scenario against_solid[] = {
+    {.name = "rest", .expected = "P = p_ref: each surface sound, the solid got no impulse"},
+    {.name = "push",
+     .expected =
+         "P above p_ref: the solid's books are sum -(P - p_ref) A dt to 1e-12, its faces move along that force"},
+    {.name = "short_windows",
+     .expected = "windows of a tenth of the stable step: the next starts where this one ended"},
+    {.name = "stop", .expected = "the fluid asks to stop: BYE after that window, exit code 0"},
+    {.name = "turned", .expected = "the fluid comes first on the command line: the same", .turned = true},
+    {.name = "ranks_2", .expected = "two ranks: the same surfaces as one, bit for bit", .ranks = 2, .like = "ranks_1"},
+    {.name = "nan",
+     .expected = "a pressure that is not a number: both end with code 69",
+     .code = exit_bad_value,
+     .timed = true},
+    {.name = "late_t1", .expected = "t1 beyond t1_max: code 69", .code = exit_bad_value, .timed = true},
+    {.name = "standstill", .expected = "t1 = t0: code 69", .code = exit_bad_value, .timed = true},
+    {.name = "size", .expected = "a pressure too few: code 68", .code = exit_malformed, .timed = true},
+    {.name = "order", .expected = "an answer to another window: code 68", .code = exit_malformed, .timed = true},
+    {.name = "books",
+     .expected = "an impulse in LOAD that isn't that of its pressures: code 78",
+     .code = exit_ledger,
+     .timed = true},
+    {.name = "bye", .expected = "BYE instead of LOAD: code 76", .code = exit_bye, .timed = true},
+    {.name = "version", .expected = "HELLO of major version 2: code 65", .code = exit_version, .timed = true},
+    {.name = "magic", .expected = "HELLO of another protocol: code 64", .code = exit_protocol, .timed = true},
+    {.name = "p_ref", .expected = "another reference pressure: code 66", .code = exit_disagreement, .timed = true},
+    {.name = "apart", .expected = "a domain far from the surface: code 67", .code = exit_apart, .timed = true},
+    {.name = "fail", .expected = "FAIL with code 42: the program ends with 42 too", .code = 42, .timed = true},
+    {.name = "silence",
+     .expected = "no load for the silence limit of 2 s: code 75",
+     .code = exit_silence,
+     .timed = true,
+     .wait = short_silence},
+    {.name = "death",
+     .expected = "the fluid dies without a word: the program is gone too, not code 0",
+     .code = -1,
+     .timed = true},
+};
+
+}  // namespace
+
+std::span<const Scenario> scenarios_of(const std::string& play) {
+  if (play == "solid") return against_fluid;
+  return against_solid;
+}
+
+void found_wanting(const std::string& text) { throw CodedError(exit_found_wanting, text); }
+
+void mark_accident() {
+  const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  error_line(fmt::format("accident at {:.6f}", now));
+}
+
+}  // namespace bw::coupling::check
