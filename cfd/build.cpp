@@ -9,6 +9,7 @@
 #include "cfd/embed/cavity.h"
 #include "cfd/eos/library.h"
 #include "cfd/source/detonation.h"
+#include "cfd/start/paint.h"
 #include "common/app/log.h"
 #include "common/parallel/loop.h"
 
@@ -233,6 +234,7 @@ Model::Model(const Comm& comm, const Case& cs)
   setup.burn = make_burn(cs, forest);
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
   if (cs.fluid.amr) refine = cs.fluid.amr->rules;
+  if (cs.fluid.start_from) start = std::make_shared<Start>(begin_from(*cs.fluid.start_from, *this));
 }
 
 void add_walls(Model& m, double p_ref) {
@@ -300,6 +302,7 @@ void paint_regions(Model& m, const Case& cs, bool last) {
   }
   if (const double n = m.forest.comm().sum(unpainted); n > 0)
     throw InputError(fmt::format("{}: fluid.region: {:g} cells belong to no region: begin with shape = {{kind = \"everywhere\"}}", cs.file, n));
+  if (m.start) paint_profile(m, *m.start, last);
   inspect(m, all);
 }
 

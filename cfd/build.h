@@ -12,6 +12,8 @@
 
 namespace bw::cfd {
 
+struct Start;
+
 /// Everything of a run. Address-stable: its parts point at each other.
 struct Model {
   Model(const Comm& comm, const Case& cs);
@@ -23,6 +25,7 @@ struct Model {
   std::optional<RefineRules> refine;  ///< none: a uniform grid
   std::optional<Walls> walls;    ///< embedded surface, if there is one
   std::optional<Bodies> bodies;  ///< stand-alone: what moves it
+  std::shared_ptr<const Start> start;  ///< another run's end that this one begins with (cfd/start/paint.h); nullptr: none
   double explosive_mass = 0;     ///< kg, at t = 0
   double cavity_mass = 0;        ///< kg: exact volume of the cavities times the density painted into them; 0: none
 };

@@ -64,6 +64,7 @@ void FluidCase::describe(Keys& k) {
   k.table("scheme", scheme, "the flow solver");
   k.tables("material", material, "one or two materials");
   k.tables("region", region, "the state at t = 0");
+  k.table("start_from", start_from, "over the regions, what a run along a radius ended with");
   k.tables("inflow", inflow, "states of sides declared \"inflow\"");
   k.tables("burn", burn, "programmed burn of an explosive");
   k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
@@ -157,6 +158,9 @@ void FluidCase::check(Keys& k) const {
       throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
   if (grid.geometry != Geometry::planar) check_radial(k);
+  if (start_from && !burn.empty()) k.fail("start_from", "no [[fluid.burn]] beside start_from: the profile is burnt, and nothing else burns yet");
+  if (start_from && grid.geometry != Geometry::planar && norm(start_from->centre) > 0)
+    throw InputError(fmt::format("{}: expected no centre along a radius: both are the same", start_from->place));
   const auto inside = [&](const Vec3& x) {
     for (int d = 0; d < 3; ++d)
       if (x[d] < grid.lower[d] || x[d] > grid.upper[d]) return false;

@@ -11,6 +11,7 @@
 #include "cfd/medium.h"
 #include "cfd/records_case.h"
 #include "cfd/regions.h"
+#include "cfd/start/case.h"
 #include "common/app/cli.h"
 #include "coupling/case.h"
 
@@ -208,6 +209,7 @@ struct FluidCase {
   SchemeCase scheme;
   std::vector<MaterialCase> material;
   std::vector<RegionCase> region;
+  std::optional<StartCase> start_from;
   std::vector<InflowCase> inflow;
   std::vector<BurnCase> burn;
   std::vector<BodyCase> body;

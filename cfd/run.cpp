@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cfd/output.h"
+#include "cfd/start/paint.h"
 #include "cfd/step.h"
 #include "common/app/log.h"
 #include "common/app/timers.h"
@@ -98,6 +99,7 @@ int run_alone(const Case& cs, Model& m) {
   }
   Books books(m);
   open_model(m, cs, books);
+  if (cs.fluid.start_from && cs.fluid.start_from->keep_time) m.state.t = m.start->profile.t;
   Sweep sweep(m.forest, m.setup, m.walls ? &*m.walls : nullptr);
   Output out(cs, m, cs.run.time.end);
   out.write_due(m, books);
@@ -118,6 +120,7 @@ int run_alone(const Case& cs, Model& m) {
     throw;
   }
   out.finish(m, books, m.state.t < t_end ? "max_steps" : "finished", "");
+  if (m.forest.shape().radial()) write_profile(cs.run.output.directory + "/fluid_profile.h5", m);
   return exit_ok;
 }
 
@@ -196,6 +199,8 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
 int run(const Case& cs, const Comm& comm, coupling::Channel* channel) {
   if (channel && cs.fluid.grid.geometry != Geometry::planar)
     throw InputError(fmt::format("{}: fluid.geometry: expected \"planar\" in a coupled run; start it from a run along a radius with [fluid.start_from]", cs.file));
+  if (channel && cs.fluid.start_from && cs.fluid.start_from->keep_time)
+    throw InputError(fmt::format("{}: expected keep_time = false in a coupled run, which begins at 0", cs.fluid.start_from->place));
   Model m(comm, cs);
   return channel ? run_coupled(cs, m, *channel) : run_alone(cs, m);
 }

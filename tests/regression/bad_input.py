@@ -133,6 +133,8 @@ CASES = {
     "flow across a radius": ("cfd", RADIAL + "velocity = [0, 1, 0]\n", r"velocity.*radius", {}),
     "levels along a radius": ("cfd", RADIAL + "[fluid.amr]\nlevels = 1\nblock = 8\n", r"amr.*radius", {}),
     "unknown geometry": ("cfd", swap(RADIAL, "spherical", "sphere"), r"spherical", {}),
+    "start from nowhere": ("cfd", FLUID + '[fluid.start_from]\nfile = "nowhere.h5"\n', r"nowhere\.h5", {}),
+    "start from another file": ("cfd", FLUID + '[fluid.start_from]\nfile = "a.inp"\n', r"profile", {"a.inp": INP}),
     "Abaqus: unknown node": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:11: .*node 77",
                              {"a.inp": swap(INP, "6, 7, 8\n", "6, 77, 8\n")}),
     "Abaqus: duplicate element": ("csd", swap(SOLID, BOX, 'mesh = {kind = "abaqus", file = "a.inp"}'), r"a\.inp:12: .*same nodes",
