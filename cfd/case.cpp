@@ -188,6 +188,7 @@ Case read_case(const CommandLine& line) {
   Root{cs.run, cs.fluid, cs.coupling}.describe(k);
   k.finish({"solid"});
   line.apply(cs.run);
+  cs.restart = line.restart;
   if (line.threads > 0) cs.fluid.threads = line.threads;
   return cs;
 }

@@ -233,6 +233,7 @@ struct FluidCase {
 
 struct Case {
   std::string file;
+  std::string restart;  ///< a checkpoint or a folder that holds some; empty: from the start
   RunControl run;
   FluidCase fluid;
   coupling::CouplingCase coupling;

@@ -65,20 +65,44 @@ double stored_energy(const Model& m) {
   return total;
 }
 
-Output::Output(const Case& cs, const Model& m, double t_end)
+Output::Output(const Case& cs, const Model& m, double t_end, const Restored* from)
     : case_(cs),
       t_end_(t_end),
       root_(m.forest.comm().root()),
       folder_(cs.run.output.directory),
-      records_(cs, m),
+      records_(cs, m, from == nullptr),
       series_(cs.run.output.directory, "fluid"),
       fields_(cs.run.output.fields_every, Schedule::Zero::never),
       rows_(cs.run.output.history_every, Schedule::Zero::every_step),
       progress_(t_end, cs.run.time.max_steps),
       start_(std::chrono::steady_clock::now()) {
-  if (root_) {
+  if (from) {
+    restore(m, *from);
+  } else if (root_) {
     history_.emplace(cs.run.output.directory + "/fluid_history.csv", history_columns(cs));
   }
+}
+
+void Output::save(const Saved& to) {
+  if (history_) history_->flush();
+  to.number("rows", history_ ? history_->rows() : int64_t(0));
+  to.same("numbers", std::vector<double>{dt_, t_row_, t_fields_, active_share_, p_max_});
+  to.same("sums", std::vector<FluidSums>{first_, last_});
+  records_.save(to.section("records"));
+}
+
+void Output::restore(const Model& m, const Restored& from) {
+  const int64_t rows = from.number<int64_t>("rows");
+  if (root_) history_.emplace(History::resume_rows(case_.run.output.directory + "/fluid_history.csv", history_columns(case_), rows));
+  const std::vector<double> n = from.same<double>("numbers");
+  dt_ = n.at(0), t_row_ = n.at(1), t_fields_ = n.at(2), active_share_ = n.at(3), p_max_ = n.at(4);
+  const std::vector<FluidSums> sums = from.same<FluidSums>("sums");
+  first_ = sums.at(0), last_ = sums.at(1);
+  rows_.skip_to(m.state.t);
+  fields_.skip_to(m.state.t);
+  series_.resume(m.state.t);
+  records_.restore(m, from.section("records"), m.state.t);
+  updates_before_ = updates(m);
 }
 
 Output::PointValues Output::at(const Model& m, const Vec3& x) const {
@@ -185,6 +209,7 @@ void Output::tick(const Model& m, double dt, size_t active_blocks) {
   progress_.tick(m.state.step, m.state.t, [&] {
     double n = 0;
     for (const Booked& b : m.state.booked) n += double(b.updates);
+    n -= updates_before_ / m.forest.comm().size();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     return fmt::format("dt {:.3g} s, {:.0f} % active, {:.2f} Mcells/s", dt, 100 * active_share_, 1e-6 * n / seconds);
   });
@@ -205,7 +230,7 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   s.steps = m.state.step, s.t = m.state.t;
   const double n = status == "failed" ? 0 : updates(m);
   const double flow = timers().seconds("flow");
-  s.rates = {{"cell_updates_per_second", n / std::max(flow, 1e-9)}, {"cell_updates", n}};
+  s.rates = {{"cell_updates_per_second", (n - updates_before_) / std::max(flow, 1e-9)}, {"cell_updates", n}};
   s.masses = {{"start", first_.U[0] + first_.U[1]}, {"end", last_.U[0] + last_.U[1]}, {"explosive", m.explosive_mass},
               {"cavity_volume_times_density", m.cavity_mass}, {"covered", books.swept.lost[0] + books.swept.lost[1]},
               {"uncovered", books.swept.made[0] + books.swept.made[1]}, {"through_walls", books.wall_mass}};
@@ -232,7 +257,7 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   }
   if (root_) {
     s.write(case_.run.output.directory + "/fluid_summary.json", timers());
-    say("{}: step {}, t = {:.6g} s, {:.2f} Mcell-updates/s in the flow", status, m.state.step, m.state.t, 1e-6 * n / std::max(flow, 1e-9));
+    say("{}: step {}, t = {:.6g} s, {:.2f} Mcell-updates/s in the flow", status, m.state.step, m.state.t, 1e-6 * (n - updates_before_) / std::max(flow, 1e-9));
   }
 }
 

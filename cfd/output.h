@@ -18,7 +18,9 @@ namespace bw::cfd {
 
 class Output {
  public:
-  Output(const Case& cs, const Model& m, double t_end);
+  /// from: goes on with the files of the run that wrote this; nullptr: new ones.
+  Output(const Case& cs, const Model& m, double t_end, const Restored* from = nullptr);
+  void save(const Saved& to);
   /// What is due at the state's time. Collective, as all below.
   void write_due(Model& m, const Books& books);
   void tick(const Model& m, double dt, size_t active_blocks);
@@ -36,6 +38,7 @@ class Output {
   void write_fields(const Model& m);
   void write_lines(const Model& m);
   double updates(const Model& m) const;
+  void restore(const Model& m, const Restored& from);
 
   const Case& case_;
   double t_end_;
@@ -50,7 +53,7 @@ class Output {
   Progress progress_;
   double dt_ = 0, t_row_ = -1, t_fields_ = -1, active_share_ = 0;
   FluidSums first_, last_;
-  double p_max_ = 0;
+  double p_max_ = 0, updates_before_ = 0;
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -30,11 +30,11 @@ std::vector<Vec3> positions(const Case& cs) {
 
 }  // namespace
 
-Records::Records(const Case& cs, const Model& m)
+Records::Records(const Case& cs, const Model& m, bool fresh)
     : case_(cs), root_(m.forest.comm().root()), points_(positions(cs)), gauge_(cs.fluid.gauge.size()) {
   for (const PlaneCase& p : cs.fluid.plane) raster_.push_back(std::make_unique<Raster>(cs, m.forest, &p, nullptr));
   if (cs.fluid.map) raster_.push_back(std::make_unique<Raster>(cs, m.forest, nullptr, &*cs.fluid.map));
-  open_table(false, 0);
+  if (fresh) open_table(false, 0);
 }
 
 void Records::open_table(bool resume, int64_t rows) {

@@ -59,7 +59,8 @@ class Raster {
 
 class Records {
  public:
-  Records(const Case& cs, const Model& m);
+  /// fresh: with new files; otherwise restore() follows.
+  Records(const Case& cs, const Model& m, bool fresh);
   /// Goes on with the files of a run that was checkpointed at t.
   void restore(const Model& m, const Restored& from, double t);
   void save(const Saved& to);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cfd/checkpoint.h"
 #include "cfd/output.h"
 #include "cfd/start/paint.h"
 #include "cfd/step.h"
@@ -68,14 +69,15 @@ double finest_cells(const Model& m) {
   return double(n[0]) * n[1] * n[2];
 }
 
-void open_model(Model& m, const Case& cs, Books& books) {
-  paint(m, cs);
+void open_model(Model& m, const Case& cs, Books& books, const Restart* from = nullptr) {
+  if (!from) paint(m, cs);
   books.fit(m);
+  if (from) restore_books(books, m.forest.comm(), *from);
   std::vector<int> all;
   for (int b = 0; b < m.forest.local_blocks(); ++b) all.push_back(b);
   books.refresh(m, all);
   const FluidSums s = books.sums(m);
-  if (m.setup.burn) m.explosive_mass = s.U[Cons::arho1];
+  if (m.setup.burn && !from) m.explosive_mass = s.U[Cons::arho1];
   if (m.refine)
     say("levels 0 to {} of cells; {} cells at the start, {:.2g} of them if all were of the finest level", m.forest.levels(), m.forest.global_cells(),
         double(m.forest.global_cells()) / finest_cells(m));
@@ -86,6 +88,7 @@ void open_model(Model& m, const Case& cs, Books& books) {
 }
 
 int run_alone(const Case& cs, Model& m) {
+  const std::optional<Restart> from = open_restart(cs, m.forest.comm());
   std::optional<BodyMotion> motion;
   if (!cs.fluid.body.empty()) {
     const BlockShape& s = m.forest.finest_shape();
@@ -95,13 +98,18 @@ int run_alone(const Case& cs, Model& m) {
     m.bodies.emplace(cs.fluid.body, ShapeSetting{cs.fluid.grid.lower, cs.fluid.grid.upper, h});
     motion.emplace(*m.bodies);
     add_walls(m, cs.coupling.reference_pressure);
-    m.walls->begin(motion->surface(), motion->x(), std::vector<Vec3>(motion->x().size()));
+    if (from) motion->go_to(from->head.t);
+    if (!from) m.walls->begin(motion->surface(), motion->x(), std::vector<Vec3>(motion->x().size()));
   }
+  if (from) restore_model(m, *from, motion ? &motion->surface() : nullptr);
   Books books(m);
-  open_model(m, cs, books);
-  if (cs.fluid.start_from && cs.fluid.start_from->keep_time) m.state.t = m.start->profile.t;
+  open_model(m, cs, books, from ? &*from : nullptr);
+  if (!from && cs.fluid.start_from && cs.fluid.start_from->keep_time) m.state.t = m.start->profile.t;
   Sweep sweep(m.forest, m.setup, m.walls ? &*m.walls : nullptr);
-  Output out(cs, m, cs.run.time.end);
+  std::optional<Restored> written;
+  if (from) written.emplace(from->file.section("output"));
+  Output out(cs, m, cs.run.time.end, written ? &*written : nullptr);
+  CheckpointClock clock(cs.run.checkpoint, m.state.t, m.state.step);
   out.write_due(m, books);
   const double t_end = cs.run.time.end;
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
@@ -114,6 +122,7 @@ int run_alone(const Case& cs, Model& m) {
       m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
       out.write_due(m, books);
       out.tick(m, dt, sweep.stepped());
+      if (clock.due(m.state.t, m.state.step, m.forest.comm())) write_checkpoint(cs, m, books, out, clock.keep());
     }
   } catch (const PhysicsError& e) {
     out.finish(m, books, "failed", e.what());
@@ -201,6 +210,7 @@ int run(const Case& cs, const Comm& comm, coupling::Channel* channel) {
     throw InputError(fmt::format("{}: fluid.geometry: expected \"planar\" in a coupled run; start it from a run along a radius with [fluid.start_from]", cs.file));
   if (channel && cs.fluid.start_from && cs.fluid.start_from->keep_time)
     throw InputError(fmt::format("{}: expected keep_time = false in a coupled run, which begins at 0", cs.fluid.start_from->place));
+  if (channel && !cs.restart.empty()) throw InputError("command line: --restart: the pair writes no checkpoints");
   Model m(comm, cs);
   return channel ? run_coupled(cs, m, *channel) : run_alone(cs, m);
 }

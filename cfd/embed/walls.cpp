@@ -145,4 +145,34 @@ coupling::Loads Walls::loads() {
   return r;
 }
 
+void Walls::save(const Saved& to) const {
+  to.same("x", surface_.x);
+  to.same("v", surface_.v);
+  std::vector<std::array<int32_t, 4>> cells;
+  CutMap::for_each_difference(map_, map_, [&](const Index3& c) {
+    if (const int flags = map_.flags(c) & (cell_sealed | cell_fresh)) cells.push_back({c[0], c[1], c[2], flags});
+  });
+  to.same("cells", cells);
+  std::vector<std::pair<int64_t, double>> apertures(first_aperture_.begin(), first_aperture_.end());
+  std::sort(apertures.begin(), apertures.end());
+  std::vector<int64_t> faces;
+  std::vector<double> first;
+  for (const auto& [face, aperture] : apertures) faces.push_back(face), first.push_back(aperture);
+  to.same("lips", faces);
+  to.same("apertures", first);
+}
+
+void Walls::restore(const Restored& from, const coupling::WetSurface& surface) {
+  begin(surface, from.same<Vec3>("x"), from.same<Vec3>("v"));
+  for (const std::array<int32_t, 4>& c : from.same<std::array<int32_t, 4>>("cells")) {
+    map_.set_flag({c[0], c[1], c[2]}, uint8_t(c[3]));
+    if (c[3] & cell_sealed) map_.note_orphans();
+  }
+  const std::vector<int64_t> faces = from.same<int64_t>("lips");
+  const std::vector<double> first = from.same<double>("apertures");
+  first_aperture_.clear();
+  for (size_t i = 0; i < faces.size(); ++i) first_aperture_.emplace(faces[i], first[i]);
+  probes_current_ = false;
+}
+
 }  // namespace bw::cfd

@@ -21,6 +21,7 @@
 #include "cfd/embed/lips.h"
 #include "cfd/embed/motion.h"
 #include "cfd/embed/probes.h"
+#include "common/io/checkpoint.h"
 #include "coupling/loads.h"
 #include "coupling/node_places.h"
 
@@ -71,6 +72,12 @@ class Walls {
   Vec3 lip_force() const { return lip_force_; }
 
   const coupling::WetSurface& surface() const { return surface_; }
+
+  // --- checkpoints
+  /// Nodes, and what of the map follows from the past: cells that wait for fluid; apertures of lips.
+  void save(const Saved& to) const;
+  /// Instead of the first begin(): surface as it was given to the last begin() before save().
+  void restore(const Restored& from, const coupling::WetSurface& surface);
 
  private:
   void rescan(const std::vector<Vec3>* x_before);
