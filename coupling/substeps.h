@@ -10,6 +10,7 @@ namespace bw::coupling {
 /// window is divided anew.
 class EqualSubsteps {
  public:
+  EqualSubsteps() : EqualSubsteps(0, 0) {}
   EqualSubsteps(double t0, double t1) : start_(t0), t_(t0), t1_(t1) {}
   bool done() const { return t_ >= t1_; }
   double t() const { return t_; }

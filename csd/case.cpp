@@ -27,6 +27,7 @@ Case read_case(const CommandLine& line) {
   describe(k, cs);
   k.finish({"fluid"});
   line.apply(cs.run);
+  cs.restart = line.restart;
   if (line.threads > 0) cs.solid.threads = line.threads;
   return cs;
 }

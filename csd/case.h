@@ -168,6 +168,7 @@ struct Case {
   RunControl run;
   coupling::CouplingCase coupling;
   SolidCase solid;
+  std::string restart;  ///< a checkpoint, or a folder: its latest one; empty: from the start
 };
 
 /// InputError for anything wrong in the file.

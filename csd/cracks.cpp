@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/app/error.h"
 #include "common/app/log.h"
 #include "common/parallel/loop.h"
 #include "csd/element/results.h"
@@ -112,12 +113,40 @@ std::vector<RingSample> Cracks::ring_samples(const Model& m, std::span<const Ele
   return samples;
 }
 
-void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
+void Cracks::repeat(Model& m, std::span<const std::array<NodeId, 8>> hex, std::span<const NodeId> parent) {
+  std::vector<NodeSplit> splits;
+  std::vector<ElemId> changed;
+  for (NodeId child(m.mesh.node_count()); size_t(child) < parent.size(); child = NodeId(m.mesh.node_count())) {
+    const NodeId from = parent[size_t(child)];
+    std::vector<ElemId> moved;  // whose corner is the child in the end, or was split from it later
+    for (const ElemId e : m.topology.elements(from)) {
+      const auto& now = m.mesh.hex[e];
+      NodeId last = hex[size_t(e)][size_t(std::find(now.begin(), now.end(), from) - now.begin())];
+      while (last > child) last = parent[size_t(last)];
+      if (last == child) moved.push_back(e);
+    }
+    if (moved.empty() || moved.size() == m.topology.elements(from).size())
+      throw InputError("the checkpoint doesn't fit the case's mesh: it has a crack that can't be");
+    splits.push_back({from, m.topology.split(m.mesh, from, moved)});
+    changed.insert(changed.end(), moved.begin(), moved.end());
+  }
+  grow(m, splits, changed);
+}
+
+/// Whatever follows the mesh.
+void Cracks::grow(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
   auto& [mesh, topology, s, ph] = m;
   s.append_copies(splits);
   if (ph.elements.ranks) ph.elements.ranks->append_copies(splits, s);
   if (ph.loads) ph.loads->append_copies(splits);
   for (ElemId e : changed) ph.elements.blocks.renew(mesh, e);
+  for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);
+  if (ph.relaxation) ph.relaxation->select(s.x.size());
+}
+
+void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
+  grow(m, splits, changed);
+  auto& [mesh, topology, s, ph] = m;
   std::vector<NodeId> touched;
   for (const NodeSplit& split : splits) touched.push_back(split.parent), touched.push_back(split.child);
   std::sort(touched.begin(), touched.end());
@@ -129,8 +158,6 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
     s.f[n] = (s.m[n] / before) * s.f[n];
     if (ph.loads) ph.loads->forces()[n] = (s.m[n] / before) * ph.loads->forces()[n];
   }
-  for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);
-  if (ph.relaxation) ph.relaxation->select(s.x.size());
   ph.time_step.renew(mesh, topology, ph.elements, s, touched);
   if (ph.filter) ph.energy.cracks += ph.filter->open(mesh, topology, ph.elements, s, touched);
   relabelled_ = false;

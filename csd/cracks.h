@@ -3,6 +3,7 @@
 // crack changes mass, momentum and energy by nothing but the filter's share, which is booked: nodes get their parent's
 // position, velocity and acceleration.
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,11 +33,28 @@ class Cracks {
   /// The rings that broke up into pieces; null: the case has none.
   const Pieces* pieces() const { return pieces_ ? &*pieces_ : nullptr; }
 
+  /// Opens the model's cracks again, up to the connectivity and the parents of nodes that a checkpoint has: the mesh
+  /// and all that follows it grow; numbers are left to be restored.
+  void repeat(Model& model, std::span<const std::array<NodeId, 8>> hex, std::span<const NodeId> parent);
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    failure_.keep(a);
+    fracture_.keep(a);
+    if (pieces_) {
+      A section = a.section("pieces");
+      pieces_->keep(section);
+    }
+    fragments_.keep(a);
+    a.value("opened_by_pieces", opened_by_pieces_), a.value("warned", warned_), a.value("relabelled", relabelled_);
+  }
+
  private:
   bool update_failure(const Model& model);
   std::vector<char> near_broken(const Model& model) const;
   void make_pieces(Model& model);
   std::vector<RingSample> ring_samples(const Model& model, std::span<const ElemId> elems) const;
+  void grow(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
   void take_over(Model& model, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed);
 
   Failure failure_;

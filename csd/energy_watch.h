@@ -41,6 +41,14 @@ class EnergyWatch {
   /// while there is none to speak of, no more than round-off makes of the elements' stiffness.
   double part() const { return part_; }
   double worst() const { return worst_; }
+  /// In a checkpoint; an audit under way is given up.
+  template <class A>
+  void keep(A& a) {
+    double round_off = round_off_.value_or(-1);
+    a.value("scale", scale_), a.value("part", part_), a.value("worst", worst_), a.value("warned", warned_);
+    a.value("round_off", round_off);
+    if (round_off >= 0) round_off_ = round_off;
+  }
 
  private:
   static constexpr int audit_steps = 50;

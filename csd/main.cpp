@@ -18,7 +18,6 @@ int program(const Session& session, int argc, char** argv) {
     std::fputs(case_manual().c_str(), stdout);
     return exit_ok;
   }
-  if (!line.restart.empty()) throw InputError("command line: --restart: the solid writes no checkpoints");
   const Case cs = read_case(line);
   const int threads = use_threads(cs.solid.threads);
   if (const std::string text = thread_warning(threads); !text.empty()) warn("{}", text);

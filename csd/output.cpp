@@ -64,7 +64,7 @@ bool writes(const Model& m) { return !m.physics.elements.ranks || m.physics.elem
 
 }  // namespace
 
-Output::Output(const Case& cs, const Model& model, double t_end)
+Output::Output(const Case& cs, const Model& model, double t_end, const CheckpointReader* from)
     : case_(cs),
       t_end_(t_end),
       probes_(cs.solid.probes),
@@ -76,8 +76,26 @@ Output::Output(const Case& cs, const Model& model, double t_end)
       start_(std::chrono::steady_clock::now()) {
   make_folder(cs.run.output.directory);
   for (ProbeCase& probe : probes_) std::visit([&](auto& p) { p.select(model.mesh, model.physics); }, probe.kind);
-  if (writes(model))
-    history_.emplace(cs.run.output.directory + "/solid_history.csv", history_columns(probes_, model.physics));
+  const auto columns = history_columns(probes_, model.physics);
+  if (from) keep(Archive(from->section("model"), model.mesh, model.physics.elements).section("output"));
+  if (!writes(model)) return;
+  const std::string path = cs.run.output.directory + "/solid_history.csv";
+  history_.emplace(from ? History::resume_rows(path, columns, rows_written_) : History(path, columns));
+}
+
+void Output::keep(Archive a) {
+  if (history_) {
+    history_->flush();
+    rows_written_ = history_->rows();
+  }
+  a.value("rows", rows_written_);
+  a.value("t_row", t_row_), a.value("t_fields", t_fields_);
+  a.value("energy", energy_), a.value("mass", mass_), a.value("collapsed", collapsed_), a.value("momentum", momentum_);
+  a.value("checkerboard", checkerboard_);
+  watch_.keep(a);
+  if (!a.restores()) return;
+  fields_.skip_to(t_fields_), rows_.skip_to(t_row_);
+  series_.resume(t_fields_);
 }
 
 double Output::next_time(double t) const {

@@ -8,6 +8,7 @@
 #include "common/app/progress.h"
 #include "common/io/csv.h"
 #include "common/io/vtkhdf.h"
+#include "csd/archive.h"
 #include "csd/case.h"
 #include "csd/checkerboard_watch.h"
 #include "csd/energy_watch.h"
@@ -17,7 +18,10 @@ namespace bw::csd {
 
 class Output {
  public:
-  Output(const Case& cs, const Model& model, double t_end);
+  /// from: the model is a restored one, whose files go on.
+  Output(const Case& cs, const Model& model, double t_end, const CheckpointReader* from = nullptr);
+  /// In a checkpoint.
+  void keep(Archive a);
 
   /// What is due at the state's time.
   void write_due(Model& model);
@@ -52,6 +56,7 @@ class Output {
   Vec3 momentum_;
   std::string last_dump_;
   double t_complete_ = -1, t_row_ = -1, t_fields_ = -1;
+  int64_t rows_written_ = 0;  // when a checkpoint was made or read
   double element_steps_ = 0;
   std::chrono::steady_clock::time_point start_;
   struct {

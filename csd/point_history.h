@@ -3,6 +3,7 @@
 // precision, or rounded to single: half the memory, and stresses to about 1e-7 of the elastic moduli.
 #pragma once
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,14 @@ class PointHistory {
     double* values = read(row, buffer.data());
     change(values);
     write(row, values);
+  }
+
+  /// In a checkpoint (csd/archive.h).
+  template <class A>
+  void keep(A& a, const std::string& name, int body) {
+    a.body_blocks(name, body, double_, block_size_);
+    a.body_blocks(name + "_single", body, single_, block_size_);
+    a.body_blocks(name + "_uniform", body, uniform_, 1);
   }
 
  private:

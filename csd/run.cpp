@@ -5,10 +5,12 @@
 
 #include <cmath>
 
+#include "common/app/checkpoint_clock.h"
 #include "common/app/log.h"
 #include "common/app/machine.h"
 #include "common/app/timers.h"
 #include "coupling/substeps.h"
+#include "csd/checkpoint.h"
 #include "csd/coupled.h"
 #include "csd/output.h"
 #include "csd/step.h"
@@ -59,26 +61,45 @@ bool is_at_rest(const Model& m) {
   return energy.kinetic <= tolerance * (energy.elastic + energy.plastic);
 }
 
+Comm comm_of(const Model& m) { return m.physics.elements.ranks ? m.physics.elements.ranks->comm() : Comm(); }
+
+bool wants_checkpoints(const RunControl::Checkpoint& rules) {
+  return rules.every > 0 || rules.every_wall > 0 || rules.every_steps > 0;
+}
+
 }  // namespace
 
 int run(const Case& cs, Model& m, coupling::Channel* channel) {
+  if (wants_checkpoints(cs.run.checkpoint)) check_checkpoints(cs);
+  if (channel && (wants_checkpoints(cs.run.checkpoint) || !cs.restart.empty()))
+    throw InputError(cs.file + ": checkpoint: a coupled solid writes none and can't go on from one");
+  const std::optional<Restart> from = open_restart(cs, comm_of(m));
+  Progressed now;
+  if (from) now = restore_model(m, *from);
   std::optional<Coupled> coupled;
   if (channel) coupled.emplace(*channel, cs, m);
   const double t_end = coupled ? coupled->t_end() : cs.run.time.end;
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
-  Output out(cs, m, t_end);
+  Output out(cs, m, t_end, from ? &from->file : nullptr);
+  std::optional<CheckpointClock> clock;
+  if (!coupled && !cs.solid.rigid && !cs.solid.contact) clock.emplace(cs.run.checkpoint, m.state.t, m.state.step);
   std::string status = "finished";
   try {
-    double dt = wanted_dt(cs, m, out);
+    double& dt = now.dt;
+    if (!from) dt = wanted_dt(cs, m, out);
     const auto& el = m.physics.elements;
     say("{} elements in {} colours, {}{} threads, first step {:.4g} s", m.mesh.elem_count(), el.blocks.colours.size(),
         el.ranks ? el.ranks->shares() : "", thread_count(), dt);
     out.write_due(m);
     bool at_rest = false;
     while (m.state.t < t_end && !at_rest && steps_left() && !(coupled && coupled->stop_asked())) {
-      const double t_next = out.next_time(m.state.t);
-      const double t_target = coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
-      coupling::EqualSubsteps sub(m.state.t, t_target);
+      coupling::EqualSubsteps& sub = now.sub;
+      if (sub.done()) {  // else a restored run goes on inside
+        const double t_next = out.next_time(m.state.t);
+        const double t_target =
+            coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
+        sub = coupling::EqualSubsteps(m.state.t, t_target);
+      }
       while (!sub.done() && !at_rest && (coupled || steps_left())) {
         const double h = sub.next(dt);
         if (coupled) coupled->before_step(m);
@@ -88,6 +109,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
         dt = wanted_dt(cs, m, out);
         out.write_due(m);
         out.tick(m);
+        if (clock && clock->due(m.state.t, m.state.step, comm_of(m))) write_checkpoint(cs, m, now, out, clock->keep());
         at_rest = is_at_rest(m);
       }
       if (coupled) coupled->end_window(m);

@@ -5,11 +5,10 @@
 //   plain         sigma_m = A_b U'(J)
 //   self_adjoint  sigma_m = A_b U'(A_b J): the derivative of sum V U(A_b J), so energy and momentum stay exact
 // Gated, with g = 0 or 1 per element: A_b J = J + strength g (A J - J), and its adjoint. A gate opens once and for all:
-// one that also closes pumps energy into the checkerboard (soft while it is open, stiff again after), which grew to 18 %
-// of the volumes on the Taylor bar. Opening takes energy out, so the work of what the filter changes is booked, as for
-// the plain one.
-// The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one it would be a
-// diffusion.
+// one that also closes pumps energy into the checkerboard (soft while it is open, stiff again after), which grew to 18
+// % of the volumes on the Taylor bar. Opening takes energy out, so the work of what the filter changes is booked, as
+// for the plain one. The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one
+// it would be a diffusion.
 #pragma once
 #include <span>
 #include <string>
@@ -60,6 +59,25 @@ class PressureFilter {
   /// the energy that this set free [J]. The mean stress stays that of the last smooth(), but energy() is up to date.
   double open(const Mesh& mesh, const Topology& topology, const Elements& elements, const State& s,
               std::span<const NodeId> touched);
+
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.nodes("share", share_);
+    if (a.restores()) sum_.resize(share_.size());
+    for (auto [name, field] : {std::pair{"J", &J_},
+                               {"theta", &theta_},
+                               {"stress", &stress_},
+                               {"sigma", &sigma_},
+                               {"change", &change_},
+                               {"volume", &volume_},
+                               {"gate", &gate_},
+                               {"eqps", &eqps_},
+                               {"mean", &mean_},
+                               {"rough", &rough_}})
+      a.blocks(name, *field, lanes);
+    a.value("work", work_);
+  }
 
  private:
   void renew(const Elements& elements, const State& s);

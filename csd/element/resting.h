@@ -33,6 +33,17 @@ struct Resting {
     if (is_rigid) now = rigid;
     if (!is_rigid && now == rigid) now = reached;
   }
+  /// In a checkpoint; empty counts as all reached.
+  template <class A>
+  void keep(A a, int blocks) {
+    std::vector<State> all = state;
+    if (all.empty()) all.assign(size_t(blocks), reached);
+    a.blocks("state", all, 1, reached);
+    a.value("skips", skips), a.value("rigid_skips", rigid_skips);
+    if (!a.restores()) return;
+    state = all;
+    if (std::count(state.begin(), state.end(), reached) == std::ptrdiff_t(state.size())) state.clear();
+  }
   /// After a call. When all are reached nothing is looked at any more.
   void book() {
     skips += std::count(state.begin(), state.end(), skipped);

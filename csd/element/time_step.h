@@ -38,6 +38,16 @@ class TimeStep {
   static constexpr int settling = 8, whole_refresh = 4;  ///< refreshes: of all at first; then of all once in
   static constexpr double stiff_part = 0.25;             ///< of the largest omega^2: others are passed over
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.blocks("mass", mass_, 8 * lanes);
+    a.blocks("distortion", distortion_, lanes, 1.0f);
+    a.value("refreshed_at", refreshed_at_), a.value("refreshes", refreshes_), a.value("interval", interval_);
+    a.value("refreshed_omega2", refreshed_omega2_), a.value("omega2", omega2_), a.value("stale", stale_);
+    a.value("limiting", limiting_);
+  }
+
  private:
   void share_masses(const Elements& elements, const State& s);
   enum class Which { all, stiff, collapsed };                             // all: with new shares of mass

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Failure values of all elements by the criterion of the case.
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "csd/element/elements.h"
@@ -21,6 +22,14 @@ class Failure {
   const std::vector<double>& values() const { return values_; }
   /// Elements whose stress was looked at so far.
   int64_t examined() const { return examined_; }
+
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.elements("values", values_);
+    a.elements("memory", memory_, memory_.size() / std::max<size_t>(values_.size(), 1));
+    a.value("examined", examined_);
+  }
 
  private:
   std::vector<Criteria> criteria_;  // [body]

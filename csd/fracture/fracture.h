@@ -87,6 +87,13 @@ class Fracture {
     return waiting_;
   }  ///< elements that were broken at the last step but had no joined face in tension
 
+  /// In a checkpoint. What is known of one step alone is found anew in the next.
+  template <class A>
+  void keep(A& a) {
+    a.list("opened_by", opened_by_), a.list("done", is_done_);
+    a.value("opened", opened_), a.value("waiting", waiting_);
+  }
+
  private:
   double nodal(const Topology& topology, std::span<const double> fail, NodeId n);
   void forget(NodeId n);

@@ -103,6 +103,16 @@ class Pieces {
   const std::vector<Row>& rows() const { return rows_; }
   const PiecesInput& input() const { return input_; }
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    std::vector<int32_t> edges(edges_.begin(), edges_.end());
+    a.list("bin", bin_), a.list("seen", seen_), a.list("let_go", let_go_), a.list("edges", edges),
+        a.list("rows", rows_);
+    a.value("step", step_), a.value("bins", bin_count_);
+    edges_ = {edges.begin(), edges.end()};
+  }
+
  private:
   struct Range {  // of places
     int32_t first = 0, last = 0;

@@ -88,6 +88,12 @@ class Fragments {
   /// Everything about the fragments, ordered by id.
   std::vector<Fragment> table(const Mesh& mesh, const Topology& topology, const FragmentFields& fields) const;
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.list("label", label_), a.list("known", known_), a.value("next_id", next_id_);
+  }
+
  private:
   struct Known {
     int64_t id, parent;

@@ -33,6 +33,12 @@ class Loads {
   /// Those that may bear a load.
   const std::vector<NodeId>& nodes() const { return nodes_; }
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.list("force", f_), a.list("nodes", nodes_), a.list("loaded", is_loaded_);
+  }
+
  private:
   std::vector<LoadKind> kinds_;
   void follow(const std::vector<NodeId>& nodes);

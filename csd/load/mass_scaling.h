@@ -29,6 +29,12 @@ class MassScaling {
   double added_energy() const { return energy_; }         ///< J, kinetic, that came with it since the start
   int64_t elements() const { return int64_t(heavier_); }  ///< how often an element got more
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.value("whole", whole_), a.value("added", added_), a.value("energy", energy_), a.value("heavier", heavier_);
+  }
+
  private:
   void add(const Mesh& mesh, Elements& elements, ElemId e, double part, State& s);
   MassScalingCase case_;

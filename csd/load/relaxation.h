@@ -52,6 +52,14 @@ class Relaxation {
   double out_of_balance() const { return out_of_balance_; }
   const RelaxationCase& input() const { return case_; }
   Reaction reaction;
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    reaction.keep(a);
+    a.list("force", f_);
+    a.value("stiffness", stiffness_), a.value("mass", mass_), a.value("omega2", omega2_);
+    a.value("out_of_balance", out_of_balance_);
+  }
 
  private:
   /// Both sums of the quotient fade over a hundred steps, so that one quiet moment does not count as rest.

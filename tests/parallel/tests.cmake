@@ -24,6 +24,11 @@ if(TARGET csd AND TARGET cfd)
     set_tests_properties(parallel_csd_${group} PROPERTIES TIMEOUT 900)
   endforeach()
 endif()
+# csd goes on from checkpoints
+if(TARGET csd)
+  add_test(NAME parallel_csd_restart COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/restart_csd.py ${CMAKE_BINARY_DIR})
+  set_tests_properties(parallel_csd_restart PROPERTIES TIMEOUT 600)
+endif()
 # cfd likewise, with levels
 if(TARGET csd AND TARGET cfd)
   add_test(NAME parallel_cfd_levels COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/cfd.py ${CMAKE_BINARY_DIR})

@@ -21,6 +21,11 @@ struct Reaction {
     R.clear();
     for (NodeId n : nodes) R.push_back(at[size_t(n)]);
   }
+  /// In a checkpoint; the nodes follow from the mesh.
+  template <class A>
+  void keep(A& a) {
+    a.list("R", R), a.value("impulse", impulse), a.value("work", work);
+  }
   /// Undoes take_force: the forces change within the step.
   void give_back(State& s) {
     for (size_t i = 0; i < nodes.size(); ++i) s.f[nodes[i]] -= R[i], R[i] = {};

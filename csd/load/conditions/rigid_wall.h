@@ -67,6 +67,12 @@ struct RigidWall {
     momentum_.assign(size_t(*std::max_element(body_.begin(), body_.end())) + 1, 0);
     reaction.renew(set, size_t(mesh.node_count()));
   }
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.value("point", point), a.value("moves", w_);
+    a.list("touches", touches_), a.list("left", is_left_);
+  }
   /// Nodes of rigid bodies [node], from now on; later nodes are none.
   void leave(const std::vector<char>& is_rigid) { is_left_ = is_rigid; }
   bool stops(NodeId n) const { return is_stopped_.empty() || is_stopped_[size_t(n)]; }

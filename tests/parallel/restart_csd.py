@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""csd goes on from a checkpoint with the bits of the run that was never stopped: in the middle of cracks, with other threads and ranks, killed at
+any instant, asked by a signal.
+    restart_csd.py BUILD_FOLDER [cracks | pieces | bar | loaded | static | killed | signal ...]"""
+import os
+import pathlib
+import random
+import re
+import signal as signals
+import subprocess
+import sys
+import time
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent))
+import csd  # noqa: E402
+import runs  # noqa: E402  (csd.py has set the path)
+from verification.case import WORK, run  # noqa: E402
+
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive", BREAKWAVE_PROGRESS="off")
+BUILD = pathlib.Path(os.environ["BREAKWAVE_BUILD"])
+
+
+def begin(name, text, ranks, threads, *words):
+    """csd on its own in the folder of the case, which `clean` has made."""
+    folder = WORK / name
+    (folder / "case.toml").write_text(text, encoding="utf-8")
+    command = (["mpirun", "-n", str(ranks)] if ranks > 1 else []) + [str(BUILD / "bin" / "csd"), "case.toml", *words]
+    return subprocess.Popen(command, cwd=folder, env=ENVIRONMENT | {"OMP_NUM_THREADS": str(threads)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def finish(process, what):
+    said = process.communicate(timeout=600)[0]
+    if process.returncode != 0:
+        raise RuntimeError(f"{what}: exit code {process.returncode}\n{said}")
+    return said
+
+
+def clean(name):
+    out = WORK / name / "out"
+    out.mkdir(parents=True, exist_ok=True)
+    for path in out.iterdir():
+        path.unlink()
+    return out
+
+
+def checkpoints(out):
+    return sorted(out.glob("solid_checkpoint_*.h5"))
+
+
+def limited(text, steps):
+    return text.replace("[time]\n", f"[time]\nmax_steps = {steps}\n", 1)
+
+
+def compare(name, text, stop, starts, layouts):
+    """The run to the end; one that ends after `stop` steps, with checkpoints; from each of these at `starts`, in turn with the layouts."""
+    whole = run(f"restart_{name}_whole", text, ranks="1", threads=1, only="solid").directory
+    faults = []
+    for at, (ranks, threads) in zip(starts, layouts):
+        folder = f"restart_{name}"
+        out = clean(folder)
+        first_ranks = 2 if ranks == 1 and at == starts[-1] else 1  # also from more ranks to fewer
+        finish(begin(folder, limited(text, stop) + f"[checkpoint]\nevery_steps = {at}\nkeep = 1000\n", first_ranks, 1), name)
+        file = out / f"solid_checkpoint_{at:08d}.h5"
+        finish(begin(folder, text, ranks, threads, "--restart", str(file)), f"{name} from step {at}")
+        different = runs.differences(whole, out) + csd.totals_differ(whole, out)
+        print(f"{name}: from step {at} of a run that ended after {stop}, {first_ranks} to {ranks} ranks, {threads} threads: "
+              f"{'the same bits' if not different else 'DIFFERENT: ' + ', '.join(different[:8])}", flush=True)
+        faults += [f"{name} from step {at}: other bits"] if different else []
+    return faults
+
+
+def killed(times=4):
+    """Killed at random instants, again and again from where it was; once the latest file is complete the bits are those of the whole run."""
+    result = run("restart_killed_whole", csd.CRACKS, ranks="1", threads=1, only="solid")
+    whole = result.directory
+    name, rules, dice = "restart_killed", "[checkpoint]\nevery_steps = 20\n", random.Random(os.getpid())
+    out, faults, deaths = clean(name), [], 0
+    for _ in range(times):
+        go_on = ["--restart", "out"] if checkpoints(out) else []
+        process = begin(name, csd.CRACKS + rules, 1, 1, *go_on)
+        try:
+            process.wait(timeout=dice.uniform(0.05, 0.7 * result.seconds))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            deaths += 1
+        process.communicate()
+    finish(begin(name, csd.CRACKS + rules, 1, 2, *(["--restart", "out"] if checkpoints(out) else [])), name)
+    different = [d for d in runs.differences(whole, out)]
+    faults += [f"killed: {different[:8]}"] if different else []
+    faults += [f"killed: {len(checkpoints(out))} checkpoints stay"] if len(checkpoints(out)) != 2 else []
+    faults += ["killed: never"] if deaths == 0 else []
+    print(f"killed {deaths} times: {'the same bits' if not different else different[:8]}")
+    return faults
+
+
+def signal():
+    """USR1 asks for a checkpoint, and nothing else happens."""
+    out = clean("restart_signal")
+    process = begin("restart_signal", csd.CRACKS, 1, 1)
+    while process.poll() is None and not (out / "solid_history.csv").exists():
+        time.sleep(0.02)
+    time.sleep(0.05)
+    process.send_signal(signals.SIGUSR1)
+    said = finish(process, "signal")
+    print(f"signal: {len(checkpoints(out))} checkpoint, {re.findall('checkpoint at .*', said)}")
+    return [] if len(checkpoints(out)) == 1 else ["signal: no checkpoint, or several"]
+
+
+def refused():
+    """A checkpoint of another case, and one that isn't there."""
+    faults = []
+    out = clean("restart_refused")
+    finish(begin("restart_refused", limited(csd.CRACKS, 20) + "[checkpoint]\nevery_steps = 10\n", 1, 1), "refused")
+    for text, words, wanted in ((csd.CRACKS.replace("0.05}", "0.06}"), str(out), "case"), (csd.CRACKS, "nowhere", "nowhere")):
+        process = begin("restart_refused", text, 1, 1, "--restart", words)
+        said = process.communicate()[0]
+        print(f"refused: {said.strip().splitlines()[-1]}")
+        faults += [f"refused: exit code {process.returncode}: {said}"] if process.returncode != 2 or wanted not in said else []
+    return faults
+
+
+GROUPS = {"cracks": lambda: compare("cracks", csd.CRACKS, 74, [12, 45, 60, 72], [(1, 2), (2, 1), (1, 1), (1, 1)]),
+          "pieces": lambda: compare("pieces", csd.PIECES, 76, [66], [(1, 2)]),
+          "bar": lambda: compare("bar", csd.BAR, 40, [7, 31], [(1, 2), (2, 1)]),
+          "loaded": lambda: compare("loaded", csd.LOADED.replace("STEP", "0.26 us"), 60, [10, 41], [(1, 2), (2, 2)]),
+          "static": lambda: compare("static", csd.STATIC, 100, [51], [(1, 2)]),
+          "killed": killed, "signal": signal, "refused": refused}
+
+if __name__ == "__main__":
+    failures = [fault for group in csd.arguments or GROUPS for fault in GROUPS[group]()]
+    print("\n".join(failures) or "all the same")
+    sys.exit(1 if failures else 0)
