@@ -31,6 +31,7 @@ class Books {
   double wall_mass = 0;       ///< kg, likewise: the defect of link walls
   Vec3 face_impulse;          ///< N s, sum of -p A dt over the wet faces (absolute pressure)
   double face_work = 0;       ///< J, likewise
+  int64_t repeated = 0;         ///< steps that failed and were taken again at half their size
   double seconds_between_levels = 0;  ///< of a thread, at faces between levels
   Vec3 lip_impulse;           ///< N s, kept from the walls by the blending of lips
 

@@ -11,6 +11,7 @@
 #include "cfd/source/detonation.h"
 #include "cfd/start/paint.h"
 #include "common/app/log.h"
+#include "common/math/random.h"
 #include "common/parallel/loop.h"
 
 namespace bw::cfd {
@@ -56,6 +57,8 @@ Boundary make_boundary(const Medium& medium, const Case& cs) {
   for (size_t i = 0; i < 6; ++i) {
     const std::string& kind = cs.fluid.boundary.side[i];
     b.side[i].kind = kind == "outflow"    ? SideKind::outflow
+                     : kind == "far_field"       ? SideKind::far_field
+                     : kind == "subsonic_inflow" ? SideKind::subsonic_inflow
                      : kind == "periodic" ? SideKind::periodic
                      : kind == "inflow"   ? SideKind::inflow
                                           : SideKind::wall;
@@ -308,12 +311,46 @@ void paint_regions(Model& m, const Case& cs, bool last) {
 
 }  // namespace
 
+namespace {
+
+/// Random densities; pressure, velocity and composition stay.
+void perturb(Model& m, double amplitude) {
+  const Index3 n = m.forest.cells_of_level(m.forest.levels());
+  std::vector<int> all;
+  for (int b = 0; b < m.forest.local_blocks(); ++b) {
+    all.push_back(b);
+    const BlockShape& s = m.forest.shape(b);
+    const Index3 first = m.forest.first_finest(b), wide = m.forest.finest_cells(b);
+    for (int k = 0; k < s.n[2]; ++k)
+      for (int j = 0; j < s.n[1]; ++j)
+        for (int i = 0; i < s.n[0]; ++i) {
+          const uint64_t x = uint64_t(first[0] + i * (wide[0] / s.n[0])), y = uint64_t(first[1] + j * (wide[1] / s.n[1])),
+                         z = uint64_t(first[2] + k * (wide[2] / s.n[2]));
+          const double factor = 1 + amplitude * (2 * uniform01(1, (z * uint64_t(n[1]) + y) * uint64_t(n[0]) + x) - 1);
+          double U[Cons::count], W[Prim::stored];
+          for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(b, q)[s.at(k, j, i)];
+          std::visit(
+              [&](const auto& pair) {
+                pair.to_primitive(U, W, m.setup.medium.floors);
+                W[Prim::arho1] *= factor, W[Prim::arho2] *= factor;
+                pair.to_conserved(W, U);
+              },
+              m.setup.medium.mixture);
+          for (int q = 0; q < Cons::count; ++q) m.state.block(b, q)[s.at(k, j, i)] = U[q];
+        }
+  }
+  inspect(m, all);
+}
+
+}  // namespace
+
 void paint(Model& m, const Case& cs) {
   paint_regions(m, cs, !m.refine);
   if (m.refine) {
     for (int i = 0; i < m.forest.levels() && adapt_unpainted(m); ++i) paint_regions(m, cs, false);
     paint_regions(m, cs, true);
   }
+  if (cs.fluid.perturbation > 0) perturb(m, cs.fluid.perturbation);
   if (m.setup.burn) check_burn(m, cs);
 }
 

@@ -65,7 +65,10 @@ void FluidCase::describe(Keys& k) {
   k.tables("material", material, "one or two materials");
   k.tables("region", region, "the state at t = 0");
   k.table("start_from", start_from, "over the regions, what a run along a radius ended with");
-  k.tables("inflow", inflow, "states of sides declared \"inflow\"");
+  k.optional("perturbation", perturbation, dim::none,
+             "the density of each cell is changed at the start by up to this part of it, at random, the same on any number of ranks: to see instabilities");
+  k.expect(perturbation >= 0 && perturbation < 0.5, "perturbation", "a number from 0 to below 0.5");
+  k.tables("inflow", inflow, "states of sides declared inflow, subsonic_inflow or far_field");
   k.tables("burn", burn, "programmed burn of an explosive");
   k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
   k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv; what they measured: fluid_gauges.json");
@@ -95,7 +98,7 @@ void FluidCase::use_radius(Keys& k, Geometry geometry) {
 void FluidCase::check_radial(Keys& k) const {
   const bool at_centre = grid.lower.x == 0;
   if (boundary.side[0] == "periodic" || (at_centre && boundary.side[0] != "wall"))
-    k.fail("boundary", at_centre ? "x_lower = \"wall\", the centre" : "wall, outflow or inflow along a radius");
+    k.fail("boundary", at_centre ? "x_lower = \"wall\", the centre" : "any side but periodic along a radius");
   for (size_t s = 2; s < 6; ++s)
     if (boundary.side[s] != "wall") k.fail("boundary", "x_lower and x_upper alone along a radius");
   if (!body.empty()) k.fail("body", "no bodies along a radius");
@@ -146,8 +149,9 @@ void FluidCase::check(Keys& k) const {
   static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
   for (size_t s = 0; s < 6; ++s) {
     const auto states = std::count_if(inflow.begin(), inflow.end(), [&](const auto& i) { return i.side == names[s]; });
-    if ((boundary.side[s] == "inflow") != (states == 1))
-      k.fail("boundary", fmt::format("one [[fluid.inflow]] for each side that is \"inflow\", and for no other: see {}", names[s]));
+    const std::string& kind = boundary.side[s];
+    if ((kind == "inflow" || kind == "subsonic_inflow" || kind == "far_field") != (states == 1))
+      k.fail("boundary", fmt::format("one [[fluid.inflow]] for each side that is inflow, subsonic_inflow or far_field, and for no other: see {}", names[s]));
   }
   if (burn.size() > 1) k.fail("burn", "at most one [[fluid.burn]]; it may have several points");
   for (const auto& b : burn) {

@@ -102,7 +102,7 @@ struct InflowCase : StateCase {
   template <class K>
   void describe(K& k) {
     k.choice("side", side, {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"},
-             "the side of the domain, declared \"inflow\" in boundary");
+             "the side of the domain, declared inflow, subsonic_inflow or far_field in boundary");
     StateCase::describe(k);
   }
 };
@@ -193,8 +193,10 @@ struct BoundaryCase {
   void describe(K& k) {
     static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
     for (size_t i = 0; i < 6; ++i)
-      k.choice(names[i], side[i], {"wall", "outflow", "periodic", "inflow"},
-               "rigid smooth wall (or plane of symmetry), outflow, periodic (both sides), or inflow ([[fluid.inflow]])");
+      k.choice(names[i], side[i], {"wall", "symmetry", "outflow", "far_field", "periodic", "inflow", "subsonic_inflow"},
+               "rigid smooth wall; plane of symmetry (the same); outflow: the last cell once more; far_field: waves leave without reflection, what "
+               "enters is at a given state; periodic (both sides); inflow: a given state (supersonic); subsonic_inflow: given density and velocity. "
+               "States: [[fluid.inflow]]");
     for (size_t d = 0; d < 3; ++d)
       k.expect((side[2 * d] == "periodic") == (side[2 * d + 1] == "periodic"), names[2 * d + 1],
                "\"periodic\" on both sides of a direction or on none");
@@ -218,6 +220,7 @@ struct FluidCase {
   std::vector<PlaneCase> plane;
   std::optional<MapCase> map;
   double arrival_overpressure = 0;
+  double perturbation = 0;
   std::optional<FieldsCase> fields;
 
   void describe(Keys& k);

@@ -24,6 +24,7 @@ struct Run {
 struct WallSums {
   Vec3 wall_impulse, face_impulse, lip_impulse;
   double wall_energy = 0, wall_mass = 0, face_work = 0;
+  int64_t repeated = 0;
 };
 
 /// A leaf in an order of its own.
@@ -112,7 +113,7 @@ void write_checkpoint(const Case& cs, const Model& m, const Books& books, Output
   const Saved sums = file.section("books");
   sums.rows("swept", std::vector<Swept>{books.swept});
   sums.number("walls", WallSums{books.wall_impulse, books.face_impulse, books.lip_impulse, books.wall_energy,
-                                books.wall_mass, books.face_work});
+                                books.wall_mass, books.face_work, books.repeated});
   if (m.walls) m.walls->save(file.section("walls"));
   out.save(file.section("output"));
   file.finish();
@@ -144,7 +145,7 @@ void restore_books(Books& books, const Comm& comm, const Restart& from) {
   }
   const WallSums w = sums.number<WallSums>("walls");
   books.wall_impulse = w.wall_impulse, books.face_impulse = w.face_impulse, books.lip_impulse = w.lip_impulse;
-  books.wall_energy = w.wall_energy, books.wall_mass = w.wall_mass, books.face_work = w.face_work;
+  books.wall_energy = w.wall_energy, books.wall_mass = w.wall_mass, books.face_work = w.face_work, books.repeated = w.repeated;
 }
 
 }  // namespace bw::cfd

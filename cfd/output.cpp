@@ -32,7 +32,7 @@ std::vector<History::Column> history_columns(const Case& cs) {
   c.push_back({"wall mass", "kg"});
   for (const char* name : {"covered mass", "uncovered mass"}) c.push_back({name, "kg"});
   for (const char* name : {"covered energy", "uncovered energy", "cleaned energy", "floor energy"}) c.push_back({name, "J"});
-  for (const char* name : {"cells covered", "cells fresh", "floors", "scaled", "first_order", "active_share"}) c.push_back({name, "1"});
+  for (const char* name : {"cells covered", "cells fresh", "floors", "scaled", "first_order", "repeated_steps", "active_share"}) c.push_back({name, "1"});
   return c;
 }
 
@@ -165,7 +165,7 @@ void Output::write_row(const Model& m, const Books& books) {
   for (const Vec3& v : {books.wall_impulse, books.face_impulse, books.lip_impulse})
     for (int d = 0; d < 3; ++d) row.push_back(v[d]);
   for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept[0], swept[1], swept[2], swept[3], b.cleaned[Cons::rhoE], b.floor_energy,
-                   swept[4], swept[5], double(b.floors), double(b.scaled_cells), double(b.first_order), active_share_})
+                   swept[4], swept[5], double(b.floors), double(b.scaled_cells), double(b.first_order), double(books.repeated), active_share_})
     row.push_back(v);
   if (history_) history_->row(row);
 }
@@ -247,6 +247,7 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
     const Booked b = books.booked(m);
     s.counts = {{"floors", double(b.floors)}, {"scaled_cells", double(b.scaled_cells)}, {"first_order_cells", double(b.first_order)}};
   }
+  s.counts.push_back({"repeated_steps", double(books.repeated)});
   s.counts.push_back({"cells", double(m.forest.global_cells())});
   s.counts.push_back({"blocks", double(m.forest.global_blocks())});
   s.values = {{"p_max", p_max_}, {"active_share", active_share_}};

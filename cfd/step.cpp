@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include "cfd/adapt.h"
+#include "common/app/log.h"
 #include "common/app/timers.h"
 
 namespace bw::cfd {
 namespace {
 
-constexpr int most_tries = 8;
+constexpr int most_tries = 8, told_repeats = 5;
 
 /// The walls have moved or are new: cells that they freed get a state, and what changed hands is booked.
 void follow_walls(Model& m, Sweep& sweep, Books& books) {
@@ -76,6 +77,9 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
     if (m.walls) dt = place_walls(m, sweep, books, *motion, dt);
     if (advance_flow(m, sweep, dt)) break;
     if (i == most_tries) fail(m, sweep, dt);
+    if (books.repeated++ < told_repeats)
+      warn("step {}, t = {:.6g} s: no valid state with dt = {:.3g} s; it is taken again at half of that{}", m.state.step, m.state.t, dt,
+           books.repeated == told_repeats ? " (further ones are counted only)" : "");
   }
   sweep.commit(m.state);
   books.seconds_between_levels = sweep.seconds_between_levels();

@@ -133,6 +133,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   UpdateInput in{
       &setup_.medium, setup_.burn ? &*setup_.burn : nullptr, patch.material != 2 && burns(block), t_, t_ + dt_,
       first_order};
+  find_shocks(patch);
   if (in.burns) fill_stored_energy(*setup_.burn, t_ + 0.5 * dt_, patch);
   change.book_sides = 0;
   for (int d = 0; d < 3; ++d)

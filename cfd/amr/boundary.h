@@ -10,11 +10,14 @@ enum class SideKind {
   outflow,   ///< the last cell once more
   periodic,  ///< the other side
   inflow,    ///< a constant state
+  far_field,        ///< characteristics: what leaves leaves, what enters comes from a constant state
+  subsonic_inflow,  ///< density and velocity of a constant state, pressure by the wave that leaves
 };
 
 struct BoundarySide {
   SideKind kind = SideKind::wall;
-  double U[Cons::count] = {};  ///< inflow: the conserved state
+  double U[Cons::count] = {};  ///< inflow, far_field, subsonic_inflow: the conserved state
+  bool has_state() const { return kind == SideKind::inflow || kind == SideKind::far_field || kind == SideKind::subsonic_inflow; }
 };
 /// x lower, x upper, y lower ...
 struct Boundary {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cfd/amr/levels.h"
+#include "cfd/amr/open_side.h"
 #include "cfd/scheme/lane.h"
 
 namespace bw::cfd {
@@ -33,6 +34,8 @@ GhostSource Gather::source(int block, int d, int index) const {
     case SideKind::inflow:
       return {0, 0, false, side.U};
     case SideKind::outflow:
+    case SideKind::far_field:        // fill_open_side() makes them
+    case SideKind::subsonic_inflow:  // of copies
     case SideKind::periodic:
       break;  // periodic sides are never at_side
   }
@@ -48,7 +51,7 @@ int Gather::material(int block) const {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];
-      if (side.kind == SideKind::inflow && s.used[d] && forest_.at_side(block, d, upper) &&
+      if (side.has_state() && s.used[d] && forest_.at_side(block, d, upper) &&
           material_of(side.U[Cons::alpha1]) != m)
         return 0;
     }
@@ -66,7 +69,7 @@ bool Gather::quiet(int block) const {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];
-      if (side.kind == SideKind::inflow && s.used[d] && forest_.at_side(block, d, upper) &&
+      if (side.has_state() && s.used[d] && forest_.at_side(block, d, upper) &&
           !std::equal(mine.U, mine.U + Cons::count, side.U))
         return false;
     }
@@ -140,7 +143,7 @@ void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) co
   patch.block = block;
   patch.lower = forest_.lower(block);
   patch.set_cell_size(forest_.shape(block).h);
-  patch.burns = patch.limited = false;
+  patch.burns = patch.limited = patch.shocked = false;
   patch.material = material(block);
   if (forest_.at_jump(block)) space.fill(forest_, state_, boundary_, medium_, block);
   if (patch.material && medium_.is_gas[patch.material - 1] && !all_rows) {
@@ -153,6 +156,7 @@ void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) co
     fill_rows(block, patch, space, cons, prim, [&](const Pack(&U)[GasCons::count], Pack(&W)[GasPrim::stored]) {
       gas_to_primitive(gas, U, W, medium_.floors);
     });
+    open_sides(block, all_rows, patch);
     return;
   }
   int cons[Cons::count], prim[Prim::stored];
@@ -165,6 +169,15 @@ void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) co
         });
       },
       medium_.mixture);
+  open_sides(block, all_rows, patch);
+}
+
+void Gather::open_sides(int block, bool all_rows, Patch& patch) const {
+  for (int d = 0; d < 3; ++d)
+    for (int upper = 0; upper < 2; ++upper)
+      if (const BoundarySide& side = boundary_.side[2 * d + upper];
+          is_open(side.kind) && patch.shape().used[size_t(d)] && forest_.at_side(block, d, upper))
+        fill_open_side(medium_, side, d, upper, all_rows, patch);
 }
 
 /// Is the cell marked that (k, j, i) of the patch stands for, or one of the finer ones under it?

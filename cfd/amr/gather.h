@@ -37,6 +37,7 @@ class Gather {
 
  private:
   int material(int block) const;
+  void open_sides(int block, bool all_rows, Patch& patch) const;
   /// Every row of the patch: convert(U, W) makes Packs of W[n_W] from those of U[n_U]; U comes from variables cons[],
   /// W goes to patch rows prim[].
   template <int n_U, int n_W, class Convert>

@@ -86,6 +86,7 @@ class Patch {
   Vec3 lower;            ///< its lower corner [m]; centre of cell i: lower + (i + 1/2) h
   bool burns = false;    ///< row Prim::stored_energy is filled
   bool limited = false;  ///< row Prim::order is filled
+  bool shocked = false;  ///< row Prim::shock is filled
   int material = 0;  ///< 1 or 2: the block and all ghosts hold this material alone (alpha1 exactly 1 or 0); 0: mixed
 
  private:

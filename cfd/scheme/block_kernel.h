@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "cfd/amr/patch.h"
+#include "cfd/scheme/carbuncle.h"
 #include "cfd/scheme/lane.h"
 #include "cfd/scheme/limiter.h"
 #include "cfd/scheme/positivity.h"
@@ -136,6 +137,7 @@ class BlockKernel {
     const double *low, *high, *c_low, *c_high, *z_low,
         *z_high;                           ///< upper states of the cells before, lower of the cells at i
     const double *arho1_low, *arho1_high;  ///< of the cells; arho2 lies one variable further
+    const double *shock_low, *shock_high;  ///< nullptr: no shock in the patch
     ptrdiff_t pitch, variable;
     T lambda;
     Flow flow;
@@ -148,6 +150,7 @@ class BlockKernel {
     const double* c = patch_->row(Prim::c, k, j);
     const double* z = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, k, j) : nullptr;
     const double* arho1 = patch_->row(Prim::arho1, k, j);
+    const double* shock = patch_->shocked ? patch_->row(Prim::shock, k, j) : nullptr;
     return {face(low, 0) - shift,
             face(minus_[axis], 0),
             c - step,
@@ -156,6 +159,8 @@ class BlockKernel {
             z,
             arho1 - step,
             arho1,
+            shock ? shock - step : nullptr,
+            shock,
             pitch_,
             patch_->stride_variable(),
             T(lambda_[axis]),
@@ -174,6 +179,11 @@ class BlockKernel {
     if constexpr (Flow::mixed)
       if (f.z_low)
         F[Cons::rhoE] += F[Cons::arho1] * (T(0.5) * (Lane<T>::load(f.z_low + i) + Lane<T>::load(f.z_high + i)));
+    if (f.shock_low) {
+      const T in_shock = max(Lane<T>::load(f.shock_low + i), Lane<T>::load(f.shock_high + i));
+      if (any(in_shock > T(0)))
+        damp_along_shock<axis, Flow>(L, R, max(Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i)), in_shock, F);
+    }
     for (int q = 0; q < n_flux; ++q) F[q] = f.lambda * F[q];
     return f.lambda * v_face;
   }

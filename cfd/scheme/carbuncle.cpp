@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cfd/scheme/carbuncle.h"
+
+#include <algorithm>
+
+#include "cfd/scheme/lane.h"
+
+namespace bw::cfd {
+
+void find_shocks(Patch& patch) {
+  const BlockShape& s = patch.shape();
+  patch.shocked = false;
+  if (int(s.used[0]) + s.used[1] + s.used[2] < 2) return;
+  const ptrdiff_t step[3] = {1, patch.stride_j(), patch.stride_k()};
+  const int g[3] = {s.used[0], s.used[1], s.used[2]};
+  for (int k = -g[2]; k < s.n[2] + g[2]; ++k)
+    for (int j = -g[1]; j < s.n[1] + g[1]; ++j) {
+      const double* p = patch.row(Prim::p, k, j);
+      double* out = patch.row(Prim::shock, k, j);
+      for (int i = -g[0]; i < s.n[0] + g[0]; i += Pack::size) {
+        Pack jump(0.0);
+        for (int d = 0; d < 3; ++d) {
+          if (!s.used[size_t(d)]) continue;
+          const Pack low = Pack::load(p + i - step[d]), high = Pack::load(p + i + step[d]);
+          jump = max(jump, abs(high - low) - Pack(shock_jump) * min(low, high));
+        }
+        const auto in = jump > Pack(0.0);
+        select(in, Pack(1.0), Pack(0.0)).store(out + i);
+        for (int l = 0; l < std::min(Pack::size, s.n[0] + g[0] - i); ++l) patch.shocked = patch.shocked || in[l];
+      }
+    }
+}
+
+}  // namespace bw::cfd
