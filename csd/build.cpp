@@ -61,7 +61,26 @@ std::vector<FailureData> failure_data(const SolidCase& cs) {
   return data;
 }
 
+/// Local steps know nothing of what ties nodes of different steps to each other.
+void check_local_steps(const SolidCase& cs, const Comm& comm) {
+  if (cs.time_step.levels == 0) return;
+  const auto refuse = [&](bool is_so, const char* what) {
+    if (is_so)
+      throw InputError(fmt::format("{}: local time steps don't work with {}", cs.time_step.place_levels, what));
+  };
+  refuse(cs.filter.kind != "off", "a pressure filter");
+  refuse(cs.contact.has_value(), "contact");
+  refuse(cs.relaxation.has_value(), "a run to static");
+  refuse(cs.mass_scaling.has_value(), "mass scaling");
+  refuse(cs.time_step.fixed > 0, "a fixed step");
+  refuse(comm.size() > 1, "several ranks of csd; use threads");
+  for (const ConditionCase& condition : cs.conditions)
+    refuse(std::holds_alternative<Spring>(condition.kind) || std::holds_alternative<Tie>(condition.kind),
+           "springs and ties");
+}
+
 Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, State& s) {
+  check_local_steps(cs, comm);
   Elements elements;
   elements.blocks = make_blocks(mesh, int(cs.bodies.size()));
   if (comm.size() > 1) elements.ranks = std::make_shared<Ranks>(comm, mesh, elements.blocks);
@@ -72,6 +91,7 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   Physics ph;
   ph.elements = std::move(elements);
   ph.viscosity = cs.viscosity;
+  s.local.most = cs.time_step.levels;
   ph.resting.skip = cs.skip_resting;
   ph.resting.start(ph.elements.blocks.block_count());
   for (int block = 0; block < ph.elements.blocks.block_count(); ++block)  // other ranks' are never looked at here

@@ -62,13 +62,21 @@ struct BodyCase {
 
 struct TimeStepCase {
   double safety = 0.9, maximum = 0, fixed = 0;
+  int levels = 0;
+  std::string place_levels;
   template <class K>
   void describe(K& k) {
     k.optional("safety", safety, dim::none,
                "step over 2/omega_max, where omega_max is a bound from the elements' actual stiffness");
     k.optional("maximum", maximum, dim::time, "longest step; 0: no limit");
     k.optional("fixed", fixed, dim::time, "step, whatever is stable; 0: from the stable step");
+    k.optional(
+        "levels", levels,
+        "local time steps: elements far from limiting the step take one of up to 2^levels times the shortest; 0: "
+        "all take the same");
+    if (!k.is_manual()) place_levels = k.where("levels");
     k.expect(safety > 0 && safety <= 1.5, "safety", "a number in (0, 1.5]");
+    k.expect(levels >= 0 && levels <= 6, "levels", "a number from 0 to 6");
     k.expect(maximum >= 0, "maximum", "a time >= 0");
     k.expect(fixed >= 0, "fixed", "a time >= 0");
   }

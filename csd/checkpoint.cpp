@@ -18,6 +18,9 @@ Comm comm_of(const Model& m) { return m.physics.elements.ranks ? m.physics.eleme
 
 void keep_state(Archive a, State& s) {
   a.value("t", s.t), a.value("dt", s.dt), a.value("dt_stable", s.dt_stable), a.value("step", s.step);
+  a.value("short_dt", s.short_dt);
+  Archive local = a.section("local_steps");
+  s.local.keep(local);
   s.describe([&]<class T, class Index>(const char* name, Field<T, Index>& field, const char*, State::Use) {
     if constexpr (std::is_same_v<Index, NodeId>)
       a.list(name, field);

@@ -14,10 +14,10 @@ double kinetic_energy(const State& s) {
                       [&](int64_t i) { return 0.5 * s.m[NodeId(i)] * dot(s.v[NodeId(i)], s.v[NodeId(i)]); });
 }
 
-double kinetic_product(const State& s, double dt) {
-  const double h = 0.5 * dt;
+double kinetic_product(const State& s, double short_dt) {
   return parallel_sum(int64_t(s.x.size()), [&](int64_t i) {
     const NodeId n(i);
+    const double h = 0.5 * short_dt * s.local.steps_of(n);
     return s.m[n] > 0 ? 0.5 * s.m[n] * (dot(s.v[n], s.v[n]) - h * h / (s.m[n] * s.m[n]) * dot(s.f[n], s.f[n])) : 0.0;
   });
 }
@@ -53,7 +53,7 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
   if (ph.contact) r.conditions += ph.contact->work(), r.contact += ph.contact->work();
   if (ph.relaxation) r.conditions += ph.relaxation->reaction.work, r.damping += ph.relaxation->reaction.work;
   if (ph.mass_scaling) r.mass_scaling = ph.mass_scaling->added_energy();
-  r.residual = kinetic_product(s, s.dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks +
+  r.residual = kinetic_product(s, s.short_dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks +
                r.rigidization + r.left - ph.energy.initial - r.external - r.conditions - r.mass_scaling;
   return r;
 }

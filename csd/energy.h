@@ -45,8 +45,8 @@ struct EnergyRow {
 
 double kinetic_energy(const State& s);
 /// Product form v^(n-1/2) . v^(n+1/2) m/2: what central differences conserve; differs from kinetic_energy by dt^2/8
-/// f^2/m.
-double kinetic_product(const State& s, double dt);
+/// f^2/m, dt of the node. short_dt: the shortest of the local steps.
+double kinetic_product(const State& s, double short_dt);
 /// Forces out of balance over loads and reactions (roots of sums of squares), of a run to static; 1 before the first
 /// step.
 double static_imbalance(const Physics& ph);

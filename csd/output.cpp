@@ -258,7 +258,8 @@ double Output::rate() const {
 }
 
 void Output::tick(const Model& m) {
-  element_steps_ += m.mesh.elem_count();
+  element_steps_ += m.mesh.elem_count() * m.state.local.evaluations();
+  short_steps_ += m.state.local.shortest();
   const auto now = std::chrono::steady_clock::now();
   if (const double seconds = std::chrono::duration<double>(now - window_.start).count(); seconds > 0.25) {
     window_.best = std::max(window_.best, (element_steps_ - window_.element_steps) / seconds);
@@ -301,6 +302,10 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
   sum.counts = {{"elements", double(m.mesh.elem_count())},
                 {"nodes", double(m.mesh.node_count())},
                 {"collapsed_elements", collapsed_}};
+  if (m.state.local.most > 0) {
+    sum.counts.emplace_back("short_steps", double(short_steps_));
+    sum.counts.emplace_back("element_steps", element_steps_);
+  }
   if (m.physics.resting.skips) sum.counts.emplace_back("skipped_blocks", double(m.physics.resting.skips));
   if (m.physics.cracks) {
     sum.counts.emplace_back("opened_faces", double(m.physics.cracks->opened_faces()));

@@ -8,6 +8,7 @@
 
 #include "common/math/pack.h"
 #include "csd/element/blocks.h"
+#include "csd/local_steps.h"
 #include "csd/mesh/topology.h"
 #include "csd/point_history.h"
 
@@ -16,6 +17,7 @@ namespace bw::csd {
 struct State {
   double t = 0;          ///< s
   double dt = 0;         ///< s, last step
+  double short_dt = 0;   ///< s, the shortest of its local steps; dt without such
   double dt_stable = 0;  ///< s, bound at t
   int64_t step = 0;
 
@@ -33,10 +35,15 @@ struct State {
   Field<double, SlotId> rigid;           ///< 1: of a rigid body, passed over by the force loop; empty without such
   std::vector<PointHistory> history;     ///< [body]
 
-  std::vector<int32_t> followed;  ///< nodes whose x, v, f are kept up to date on this rank; empty: all
+  LocalSteps local;                      ///< who is due now
+  Field<PaddedPoint, NodeId> next_sums;  ///< N, work space: forces by the levels to come
+  std::vector<int32_t> followed;         ///< nodes whose x, v, f are kept up to date on this rank; empty: all
+  /// Those that are due.
   template <class Work>
   void for_nodes(const Work& work) const {
-    if (followed.empty())
+    if (const auto* due = local.due_nodes())
+      parallel_for(int64_t(due->size()), [&](int64_t i) { work(NodeId((*due)[size_t(i)])); });
+    else if (followed.empty())
       parallel_for(int64_t(m.size()), [&](int64_t n) { work(NodeId(n)); });
     else
       parallel_for(int64_t(followed.size()), [&](int64_t i) { work(NodeId(followed[size_t(i)])); });
@@ -70,6 +77,7 @@ struct State {
       if constexpr (requires { field[NodeId(0)]; })
         for (const NodeSplit& split : splits) field.push_back(field[split.parent]);
     });
+    local.append_copies(splits);
   }
 
  private:

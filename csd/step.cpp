@@ -4,12 +4,13 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "csd/element/levels.h"
 #include "csd/motion.h"
 
 namespace bw::csd {
 namespace {
 
-/// s.f at s.x and time t; dt since the last call.
+/// s.f at s.x and time t of nodes that are due; dt: the shortest step since the last call.
 void sum_forces(Model& m, double t, double dt) {
   auto& [mesh, topology, s, ph] = m;
   MeanStress mean{.viscosity = ph.viscosity, .dt = dt};
@@ -43,11 +44,10 @@ void for_conditions(Model& m, std::initializer_list<Turn> turns, const Work& wor
 void on_force(Model& m, double dt) {
   for_conditions(m, {pulls, ties, holds, drags}, [&](auto& c) { c.on_force(m.state, dt); });
   if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
-  if (m.physics.rigid) m.physics.rigid->take_forces(m.state);
+  if (m.physics.rigid && m.state.local.all_due()) m.physics.rigid->take_forces(m.state);
 }
 void before_drift(Model& m, double dt) {
-  for_conditions(m, {pulls, holds, drags, ties},
-                 [&](auto& c) { c.reaction.impulse = {}, c.before_drift(m.state, dt); });
+  for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.before_drift(m.state, dt); });
 }
 void after_kick(Model& m, double dt) {
   for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.after_kick(m.state, dt); });
@@ -55,6 +55,56 @@ void after_kick(Model& m, double dt) {
 /// Half a step's work of the loads, at the step's velocities.
 void book_half_work(Model& m, double dt) {
   if (m.physics.loads) m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);
+}
+
+/// The energy that moves with the length of the steps: the product form v^(n-1/2) v^(n+1/2) is conserved by steps of
+/// one length.
+template <class Change>
+void book_jump(Model& m, double dt_before, double dt, const Change& change) {
+  auto& s = m.state;
+  if (const auto& ranks = m.physics.elements.ranks) ranks->complete(s);
+  const double before = kinetic_product(s, dt_before);
+  change();
+  m.physics.energy.initial -= before - kinetic_product(s, dt);
+}
+
+/// From one time to the middle of the coming step and the places at its end, of nodes that are due. dt: the shortest
+/// step, whole: the step of what moves by whole steps, 0 if that is under way.
+void begin(Model& m, double dt, double whole) {
+  auto& s = m.state;
+  Rigid* rigid = whole > 0 && m.physics.rigid ? &*m.physics.rigid : nullptr;
+  kick(s, 0.5 * dt);  // eq (14)
+  if (rigid) rigid->kick(s, 0.5 * whole);
+  before_drift(m, dt);
+  if (m.physics.contact) m.physics.contact->act(m, dt);
+  if (rigid) rigid->meet_walls(m.physics.conditions, s, whole);
+  book_half_work(m, dt);
+  drift(s, dt);
+  if (rigid) rigid->drift(s, whole);
+}
+
+/// From there to the step's end.
+void end(Model& m, double dt, double whole) {
+  auto& s = m.state;
+  sum_forces(m, s.t + dt, dt);
+  on_force(m, dt);
+  book_half_work(m, dt);
+  kick(s, 0.5 * dt);  // eq (14)
+  if (whole > 0 && m.physics.rigid) m.physics.rigid->kick(s, 0.5 * whole);
+  after_kick(m, dt);
+  s.t += dt;
+}
+
+/// The levels that the last forces were summed up for.
+void take_levels(Model& m, double dt) {
+  auto& s = m.state;
+  book_jump(m, dt, dt, [&] {
+    s.local.take_next();
+    take_next_sums(s);
+    if (m.physics.rigid) m.physics.rigid->after_elements(m.physics.elements, s);
+    if (m.physics.loads) m.physics.loads->add(m.mesh, s.t, s);
+    on_force(m, 0);
+  });
 }
 
 }  // namespace
@@ -66,33 +116,27 @@ void first_forces(Model& m) {
 
 void step(Model& m, double dt) {
   auto& s = m.state;
-  auto& rigid = m.physics.rigid;
-  if (dt != s.dt) {  // the product form v^(n-1/2) v^(n+1/2) is conserved by steps of one length: book its jump
-    if (const auto& ranks = m.physics.elements.ranks) ranks->complete(s);
-    m.physics.energy.initial -= kinetic_product(s, s.dt) - kinetic_product(s, dt);
+  const int count = s.local.shortest();
+  const double t_end = s.t + dt, short_dt = dt / count;
+  if (short_dt != s.short_dt) book_jump(m, s.short_dt, short_dt, [] {});
+  for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.reaction.impulse = {}; });
+  for (int i = 1; i <= count; ++i) {
+    begin(m, short_dt, i == 1 ? dt : 0);
+    s.local.set_now(i);
+    end(m, short_dt, i == count ? dt : 0);
   }
-  kick(s, 0.5 * dt);  // eq (14)
-  if (rigid) rigid->kick(s, 0.5 * dt);
-  before_drift(m, dt);
-  if (m.physics.contact) m.physics.contact->act(m, dt);
-  if (rigid) rigid->meet_walls(m.physics.conditions, s, dt);
-  book_half_work(m, dt);
-  drift(s, dt);
-  if (rigid) rigid->drift(s, dt);
-  sum_forces(m, s.t + dt, dt);
-  on_force(m, dt);
-  book_half_work(m, dt);
-  kick(s, 0.5 * dt);  // eq (14)
-  if (rigid) rigid->kick(s, 0.5 * dt);
-  after_kick(m, dt);
-  s.t += dt, s.dt = dt, s.step += 1;
+  s.t = t_end, s.dt = dt, s.short_dt = short_dt, s.step += 1;
+  if (s.local.is_pending()) take_levels(m, short_dt);
   if (m.physics.cracks) m.physics.cracks->advance(m);  // sec. 3, eq (16)
-  if (rigid) rigid->renew(m);
+  if (m.physics.rigid) m.physics.rigid->renew(m);
 }
 
 double stable_step(Model& m) {
   auto& [mesh, topology, s, ph] = m;
   double elements = ph.time_step.stable(ph.elements, s);
+  if (s.local.most > 0 && ph.time_step.refreshed())
+    s.local.propose(ph.elements.blocks, choose_levels(ph.elements, ph.time_step, s),
+                    ph.rigid ? ph.rigid->is_rigid_node() : std::vector<char>{}, s.x.size());
   if (std::isinf(elements) && ph.rigid) elements = ph.rigid->accurate_step();
   double omega2 = 0;  // of springs: frequencies of sums of stiffnesses are at most sums of squares
   for (const auto& kind : ph.conditions)

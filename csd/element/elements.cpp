@@ -36,10 +36,25 @@ struct Viscous {
   return {stress, eta / m.volumetric.stiffness(volume / V0)};
 }
 
+/// Adds a block's forces as impulses over its own step; in the last evaluation before new levels, by those as well.
+[[gnu::noinline]] void scatter_levels(Corners<Pack> f, const int32_t* nodes, int count, double steps, int block,
+                                      State& s) {
+  const auto scaled = [&](double factor) {
+    Corners<Pack> g;
+    for (int a = 0; a < 8; ++a) g.a[a] = Pack(factor) * f.a[a];
+    return g;
+  };
+  scatter_add(scaled(steps), nodes, count, s.sums.data());
+  if (s.local.is_pending() && s.local.all_due())
+    scatter_add(scaled(s.local.next_steps_of_block(block)), nodes, count, s.next_sums.data());
+}
+
 /// Forces of one block, none if it rests; returns the work spent in viscosity.
 template <class M, class Mean>
 [[gnu::flatten]] double block_force(const Elements& el, const M& material, int body, int block, const Mean& mean_of,
-                                    double per_dt, bool rests, State& s) {
+                                    double dt, bool rests, State& s) {
+  const double per_dt = dt > 0 ? 1 / dt : 0;
+  const double steps = s.local.steps_of_block(block);
   PointHistory& histories = s.history[size_t(body)];
   const int row = el.blocks.row_of(body, block);
   HistoryBuffer<M> buffer;
@@ -55,15 +70,17 @@ template <class M, class Mean>
     const Pack V0 = Pack::load(&s.V0[slot]);
     Viscous viscous{Pack(0), Pack(0)};
     auto r = internal_force<Pack>(
-        material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, viscous); }, per_dt,
-        skips);
+        material, x, V0, history + l, [&](Pack J_bar) { return mean_of(material, slot, J_bar, V0, dt, viscous); },
+        per_dt, skips);
     flowed |= r.flowed;
     if (rests) r.f = {};  // round-off
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
       scatter_border(r.f, nodes + l, places + l, count, s.sums.data(), el.blocks.border.vectors);
-    else
+    else if (steps == 1 && !s.local.is_pending())
       scatter_add(r.f, nodes + l, count, s.sums.data());
+    else
+      scatter_levels(r.f, nodes + l, count, steps, block, s);
     const Pack J_bar = r.volume / V0;
     const Pack omega2 =
         centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
@@ -87,7 +104,7 @@ struct Plain {
   static constexpr bool viscous = false;
   const Field<double, SlotId>* given;
   template <class M>
-  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack, Viscous&) const {
+  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack, double, Viscous&) const {
     return given ? Pack::load(&(*given)[slot]) : m.volumetric.mean_stress(J_bar);
   }
 };
@@ -97,9 +114,9 @@ struct WithViscosity {
   const MeanStress& how;
   const Field<double, SlotId>& volume_before;
   template <class M>
-  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack V0, Viscous& q) const {
-    const Pack sigma = Plain{how.given}(m, slot, J_bar, V0, q);
-    if (how.dt > 0) q = viscous_stress(how.viscosity, m, V0, J_bar * V0, Pack::load(&volume_before[slot]), how.dt);
+  Pack operator()(const M& m, SlotId slot, Pack J_bar, Pack V0, double dt, Viscous& q) const {
+    const Pack sigma = Plain{how.given}(m, slot, J_bar, V0, dt, q);
+    if (dt > 0) q = viscous_stress(how.viscosity, m, V0, J_bar * V0, Pack::load(&volume_before[slot]), dt);
     return sigma + q.stress;
   }
 };
@@ -132,10 +149,9 @@ Resting::State look_at(const Elements& el, int block, int body, const MeanStress
 template <class Mean>
 double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of, const Reference* reference,
                   State& s) {
-  const double dt = how.dt;
-  const double per_dt = dt > 0 ? 1 / dt : 0;
   std::vector<double> work(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
   for_coloured_blocks(el.blocks, [&](int block, int body) {
+    if (!s.local.is_block_due(block)) return;
     bool rests = false;
     if (reference) {
       const Resting::State now = look_at(el, block, body, how, *reference, s);
@@ -145,7 +161,8 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
     }
     std::visit(
         [&](const auto& material) {
-          const double w = block_force(el, material, body, block, mean_of, per_dt, rests, s);
+          const double dt = how.dt * s.local.steps_of_block(block);
+          const double w = block_force(el, material, body, block, mean_of, dt, rests, s);
           if constexpr (Mean::viscous) work[size_t(block)] = w;
         },
         el.materials[size_t(body)]);
@@ -155,7 +172,7 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
   for (double w : work) sum += w;
   s.for_nodes([&](NodeId n) {
     PaddedPoint& f = s.sums[n];
-    s.f[n] = {f.x, f.y, f.z}, f = {};
+    s.f[n] = s.local.per_step_of(n) * Vec3{f.x, f.y, f.z}, f = {};
   });
   el.finish_sum(s.f);
   return sum;
@@ -165,13 +182,21 @@ double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of
 
 double internal_force(const Elements& el, const MeanStress& how, State& s, const Reference* reference) {
   s.sums.resize(s.f.size());
+  if (s.local.is_pending()) s.next_sums.resize(s.f.size());
   if (reference && !reference->resting.any()) reference = nullptr;
   if (how.viscosity.on() && s.viscous_stress.size() == 0)
     s.viscous_stress.resize(s.V0.size()), s.viscous_time.resize(s.V0.size());
   const double work = how.viscosity.on() ? all_forces(el, how, WithViscosity{how, s.volume}, reference, s)
                                          : all_forces(el, how, Plain{how.given}, reference, s);
-  if (reference) reference->resting.book();
+  if (reference && s.local.all_due()) reference->resting.book();
   return work;
+}
+
+void take_next_sums(State& s) {
+  s.for_nodes([&](NodeId n) {
+    PaddedPoint& f = s.next_sums[n];
+    s.f[n] = s.local.per_step_of(n) * Vec3{f.x, f.y, f.z}, f = {};
+  });
 }
 
 namespace {

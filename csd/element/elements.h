@@ -60,7 +60,7 @@ struct BulkViscosity {
 struct MeanStress {
   const Field<double, SlotId>* given = nullptr;  ///< Pa, replaces U' (a filtered pressure); null: U'
   BulkViscosity viscosity;
-  double dt = 0;  ///< s since State::volume was taken and flow was last committed, for rates
+  double dt = 0;  ///< s, the shortest step since State::volume was taken and flow was last committed, for rates
 };
 
 /// Fills State and the corner masses from the mesh: fields sized, reference volumes, history, lumped masses, x = X, v =
@@ -68,9 +68,12 @@ struct MeanStress {
 void start(const Mesh& mesh, Elements& elements, State& s);
 
 /// s.f = internal forces; new history, volume, omega2 and collapsed. Returns the work spent in viscosity since the last
-/// call [J]. With a reference, blocks at rest bear no force.
+/// call [J]. With a reference, blocks at rest bear no force. Only what is due: a block of local steps bears on its nodes
+/// by its own step over theirs.
 double internal_force(const Elements& elements, const MeanStress& mean_stress, State& s,
                       const Reference* reference = nullptr);
+/// s.f = the same by the levels to come, after State::local took them: those were pending at the last call.
+void take_next_sums(State& s);
 
 /// Row sums of rho_0 N_a [kg] over an element (VALIDATION A.3), from the reference positions of its nodes.
 std::array<double, 8> corner_masses(const Mesh& mesh, const Elements& elements, ElemId e);

@@ -19,12 +19,13 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   }
   Field<double, NodeId> sum(s.m.size());
   const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
-  for_blocks(el.blocks, [&](int block, int) {
-    for_corners(lanes, [&](int a, int l) {
-      const SlotId slot(block * lanes + l);
-      mass_[at(block, a, l)] *= float(s.omega2[slot] * distortion_[slot]);
+  if (s.local.most == 0)
+    for_blocks(el.blocks, [&](int block, int) {
+      for_corners(lanes, [&](int a, int l) {
+        const SlotId slot(block * lanes + l);
+        mass_[at(block, a, l)] *= float(s.omega2[slot] * distortion_[slot]);
+      });
     });
-  });
   for_coloured_blocks(el.blocks, [&](int block, int) {
     add_to_corners(
         el.blocks, block, [&](int a, int l) { return double(mass_[at(block, a, l)]); }, sum);
@@ -85,10 +86,19 @@ double renew_distortion(const Elements& el, const State& s, int block, int body,
 Pack unless_rigid(const State& s, Pack value, SlotId first) {
   return s.rigid.size() > 0 ? select(Pack::load(&s.rigid[first]) > Pack(0), Pack(0), value) : value;
 }
-/// Bounds of a pack of elements.
-Pack omega2_of(const State& s, const Field<float, SlotId>& distortion, SlotId first) {
+/// Of omega^2 of a block, to be compared by the shortest step.
+double scale(const State& s, int block) {
+  const double steps = s.local.steps_of_block(block);
+  return steps * steps;
+}
+
+/// Bounds of a pack of elements, by their own step or by the shortest.
+Pack own_omega2_of(const State& s, const Field<float, SlotId>& distortion, SlotId first) {
   const Pack omega2 = unless_rigid(s, Pack::load(&s.omega2[first]) * Pack::load(&distortion[first]), first);
   return s.viscous_time.size() > 0 ? damped_omega2(omega2, Pack::load(&s.viscous_time[first])) : omega2;
+}
+Pack omega2_of(const State& s, const Field<float, SlotId>& distortion, SlotId first) {
+  return Pack(scale(s, first / lanes)) * own_omega2_of(s, distortion, first);
 }
 
 /// Of the elements of a block.
@@ -209,7 +219,9 @@ Worst worst_of_all(const Comm& comm, Worst w) {
 
 }  // namespace
 
-double TimeStep::omega2(const State& s, SlotId slot) const { return element_omega2(s, distortion_, slot); }
+double TimeStep::omega2(const State& s, SlotId slot) const {
+  return own_omega2_of(s, distortion_, SlotId(slot - slot % Pack::size))[slot % Pack::size];
+}
 
 double TimeStep::stable(const Elements& el, const State& s) {
   const auto worst = [&] {
@@ -232,7 +244,8 @@ double TimeStep::stable(const Elements& el, const State& s) {
   limiting_ = w.limiting;
   inverted_ = w.inverted.valid() ? std::optional(w.inverted) : std::nullopt;
   omega2_ = w.omega2;
-  return 2 / std::sqrt(w.omega2);
+  refreshed_ = due;
+  return s.local.shortest() * (2 / std::sqrt(w.omega2));
 }
 
 }  // namespace bw::csd

@@ -14,14 +14,19 @@ namespace bw::csd {
 /// bound of element/stable_step.h costs about as much as four forces, so it is evaluated every `refresh_steps`, or less
 /// often while it hardly changes; in between each element's is scaled by its centroid part, which follows all of its
 /// change of size and shape but distortion.
+/// With local steps (csd/local_steps.h) omega_e is an element's frequency times its steps over the shortest, and masses
+/// stay as they are: who lends could not take longer steps.
 /// Elements with a collapsed point (q1p0.h) are evaluated in every step. Once the masses have settled, three of four
 /// refreshes leave them as they are and pass over blocks far from limiting the step.
 class TimeStep {
  public:
-  /// s; infinite if all elements are rigid. Needs the results of internal_force at s.x.
+  /// s; infinite if all elements are rigid. Needs the results of internal_force at s.x. With local steps it is a whole
+  /// step, as long as the levels allow.
   double stable(const Elements& elements, const State& s);
   /// Of the last call. Ties: lowest slot.
   SlotId limiting() const { return limiting_; }
+  /// Whether the last call evaluated bounds anew.
+  bool refreshed() const { return refreshed_; }
   /// Bound of an element's own frequency squared at the last call, with its share of the nodes' masses [1/s^2].
   double omega2(const State& s, SlotId slot) const;
   /// The lowest slot whose volume isn't positive (or not a number) in the last call.
@@ -59,7 +64,7 @@ class TimeStep {
   int interval_ = refresh_steps;
   double refreshed_omega2_ = 0;  // at the last refresh
   double omega2_ = 0;            // of the last call
-  bool stale_ = true;
+  bool stale_ = true, refreshed_ = false;
   SlotId limiting_;
   std::optional<SlotId> inverted_;
 };

@@ -71,7 +71,8 @@ void Rigid::retire(Model& m) {
     ++left_.count, left_.mass += body.mass(), left_.momentum += body.mass() * body.velocity();
     for (const NodeId n : body.nodes()) {
       m.physics.energy.left += 0.5 * s.m[n] * dot(s.v[n], s.v[n]);
-      m.physics.energy.initial += 0.125 * s.dt * s.dt / s.m[n] * dot(s.f[n], s.f[n]);  // what the product form has less
+      const double dt = s.short_dt * s.local.steps_of(n);
+      m.physics.energy.initial += 0.125 * dt * dt / s.m[n] * dot(s.f[n], s.f[n]);  // what the product form has less
       s.v[n] = s.f[n] = {};
     }
     body.stop();

@@ -106,10 +106,12 @@ void Rigid::drift(State& s, double dt) {
 }
 
 void Rigid::after_elements(const Elements& el, State& s) {
-  parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
-    for (const NodeId n : bodies_[size_t(i)].nodes()) s.f[n] = {};
-  });
+  if (s.local.all_due())
+    parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
+      for (const NodeId n : bodies_[size_t(i)].nodes()) s.f[n] = {};
+    });
   for (const Kept& kept : kept_) {
+    if (!s.local.is_block_due(kept.slot / lanes)) continue;
     change_history(el, s, kept.slot, [&](double* history) {
       for (size_t i = 0; i < kept.values.size(); ++i) history[i * lanes] = kept.values[i];
     });
@@ -168,6 +170,8 @@ void Rigid::renew_marks(Model& m) {
       kept_.push_back(std::move(kept));
     }
   }
+  for (const RigidBody& body : bodies_) s.local.set_level(body.nodes(), s.local.top());
+  s.local.list_due();
   if (el.ranks) el.ranks->follow_also(is_rigid_, s);
   for (auto& condition : m.physics.conditions)
     if (auto* wall = std::get_if<RigidWall>(&condition)) wall->leave(is_rigid_);

@@ -37,7 +37,8 @@ Kinetic kinetic(const State& s, const std::vector<NodeId>& nodes) {
   Kinetic k;
   for (const NodeId n : nodes) {
     k.energy += 0.5 * s.m[n] * dot(s.v[n], s.v[n]);
-    k.less += 0.125 * s.dt * s.dt / s.m[n] * dot(s.f[n], s.f[n]);
+    const double dt = s.short_dt * s.local.steps_of(n);
+    k.less += 0.125 * dt * dt / s.m[n] * dot(s.f[n], s.f[n]);
   }
   return k;
 }
@@ -164,6 +165,7 @@ void Rigid::release(Model& m) {
     for (const ElemId e : elems_[b]) is_asked[size_t(e)] = 1;
     freed.push_back(bodies_[b].nodes());
     before.push_back(kinetic(s, freed.back()));
+    s.local.set_level(freed.back(), 0);
     for (const NodeId n : freed.back())
       is_freed[size_t(n)] = 1, s.f[n] = m.physics.loads ? m.physics.loads->forces()[n] : Vec3{};
   }

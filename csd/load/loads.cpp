@@ -50,12 +50,16 @@ void Loads::add(const Mesh& mesh, double t, State& s) {
   for_loaded([&](NodeId n) { f_[n] = {}; });
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
   if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
-  for_loaded([&](NodeId n) { s.f[n] += f_[n]; });
+  for_loaded([&](NodeId n) {
+    if (s.local.is_due(n)) s.f[n] += f_[n];
+  });
 }
 
 double Loads::power(const State& s) const {
-  return parallel_sum(int64_t(nodes_.size()),
-                      [&](int64_t i) { return dot(f_[nodes_[size_t(i)]], s.v[nodes_[size_t(i)]]); });
+  return parallel_sum(int64_t(nodes_.size()), [&](int64_t i) {
+    const NodeId n = nodes_[size_t(i)];
+    return s.local.is_due(n) ? s.local.steps_of(n) * dot(f_[n], s.v[n]) : 0.0;
+  });
 }
 
 void Loads::spread_given(const Mesh& mesh) {

@@ -17,13 +17,14 @@ std::vector<NodeId> nodes_of_load(const Mesh& mesh, const LoadKind& load);
 class Loads {
  public:
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
-  /// Forces at positions s.x and time t; added to s.f.
+  /// Forces at positions s.x and time t; added to s.f of nodes that are due.
   void add(const Mesh& mesh, double t, State& s);
   /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are
   /// replaced. The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new
   /// nodes.
   void replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s);
-  /// W: power of the forces of the last add() at the velocities s.v.
+  /// W: power of the forces of the last add() at the velocities s.v; of nodes that are due, times their steps over the
+  /// shortest.
   double power(const State& s) const;
   /// Nodes were split; forces() of parent and children are to be shared by mass then.
   void append_copies(std::span<const NodeSplit> splits);

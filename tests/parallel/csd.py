@@ -144,6 +144,19 @@ def static():
     return faults + ([] if status == "converged" else ["static: not converged"])
 
 
+# cracks, rigid pieces and a body that is freed again, a moving plate and a wall, all by local steps; on one rank
+LOCAL = RIGID.replace('[solid.filter]\nkind = "self_adjoint"\nstrength = 0.5\n', "[solid.time_step]\nlevels = 3\n")
+
+
+def local():
+    faults, directory = compare("local", LOCAL, [("1", 1), ("1", 2)])
+    now, table = summary(directory, "solid"), history(directory / "solid_history.csv")
+    residual = abs(now["energies"]["residual"]) / now["energies"]["external"]
+    print(f"local: {now['steps']} steps, {now['counts']['short_steps']:.0f} short ones, residual {residual:.2g} of the work, {table['fragments'][-1]:.0f} pieces, "
+          f"{table['rigid_fragments'][-1]:.0f} rigid")
+    return faults + ([] if now["counts"]["short_steps"] > 1.5 * now["steps"] and table["rigid_fragments"][-1] > 0 and residual < 0.01 else ["local: no local steps, or energy is lost"])
+
+
 def coupled():
     return compare("coupled", runs.SHELL.replace('"30 us"', '"24 us"'), [("1+1", 1), ("2+1", 1)], only=None)[0]
 
@@ -165,7 +178,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "local": local, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in groups[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)

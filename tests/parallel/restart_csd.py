@@ -53,14 +53,14 @@ def limited(text, steps):
     return text.replace("[time]\n", f"[time]\nmax_steps = {steps}\n", 1)
 
 
-def compare(name, text, stop, starts, layouts):
+def compare(name, text, stop, starts, layouts, first=2):
     """The run to the end; one that ends after `stop` steps, with checkpoints; from each of these at `starts`, in turn with the layouts."""
     whole = run(f"restart_{name}_whole", text, ranks="1", threads=1, only="solid").directory
     faults = []
     for at, (ranks, threads) in zip(starts, layouts):
         folder = f"restart_{name}"
         out = clean(folder)
-        first_ranks = 2 if ranks == 1 and at == starts[-1] else 1  # also from more ranks to fewer
+        first_ranks = first if ranks == 1 and at == starts[-1] else 1  # also from more ranks to fewer
         finish(begin(folder, limited(text, stop) + f"[checkpoint]\nevery_steps = {at}\nkeep = 1000\n", first_ranks, 1), name)
         file = out / f"solid_checkpoint_{at:08d}.h5"
         finish(begin(folder, text, ranks, threads, "--restart", str(file)), f"{name} from step {at}")
@@ -121,11 +121,14 @@ def refused():
     return faults
 
 
+# local steps, while the levels change
+LOCAL = csd.CRACKS.replace('[solid.filter]\nkind = "self_adjoint"\nstrength = 0.5\n', "[solid.time_step]\nlevels = 3\n")
 GROUPS = {"cracks": lambda: compare("cracks", csd.CRACKS, 74, [12, 45, 60, 72], [(1, 2), (2, 1), (1, 1), (1, 1)]),
           "pieces": lambda: compare("pieces", csd.PIECES, 76, [66], [(1, 2)]),
           "bar": lambda: compare("bar", csd.BAR, 40, [7, 31], [(1, 2), (2, 1)]),
           "loaded": lambda: compare("loaded", csd.LOADED.replace("STEP", "0.26 us"), 60, [10, 41], [(1, 2), (2, 2)]),
           "static": lambda: compare("static", csd.STATIC, 100, [51], [(1, 2)]),
+          "local": lambda: compare("local", LOCAL, 40, [9, 25], [(1, 2), (1, 1)], first=1),
           "killed": killed, "signal": signal, "refused": refused}
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ foreach(failure "input;2" "physics;3" "coded;66" "bug;1" "silent;1")
 endforeach()
 # csd on ranks and threads, bit for bit
 if(TARGET csd AND TARGET cfd)
-  foreach(group cracks rigid contact bar loaded static coupled errors)
+  foreach(group cracks rigid contact bar loaded static local coupled errors)
     add_test(NAME parallel_csd_${group} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/csd.py ${CMAKE_BINARY_DIR} ${group})
     set_tests_properties(parallel_csd_${group} PROPERTIES TIMEOUT 900)
   endforeach()

@@ -151,6 +151,8 @@ CASES = {
     "symmetry inside": ("csd", SOLID + '[[solid.condition]]\nkind = "symmetry"\nnormal = [1, 0, 0]\npoint = [0.005, 0, 0]\n', r"both sides", {}),
     "tie to far faces": ("csd", SOLID + '[[solid.condition]]\nkind = "tie"\nnodes = "x_lower"\nfaces = ["x_upper"]\n', r"lies within", {}),
     "unknown region": ("csd", SOLID + '[[solid.velocity]]\nnodes = "x_lowr"\nvelocity = [1.0, 0, 0]\n', r"x_lower", {}),
+    "local steps and a filter": ("csd", SOLID + '[solid.time_step]\nlevels = 2\n[solid.filter]\nkind = "plain"\n', r"pressure filter", {}),
+    "too many levels": ("csd", SOLID + '[solid.time_step]\nlevels = 9\n', r"from 0 to 6", {}),
     "no minimum step": ("csd", SOLID + '[solid.mass_scaling]\nminimum_step = 0.0\n', r"minimum_step", {}),
     "broken TOML": ("csd", swap(SOLID, "[[solid.body]]", "[[solid.body]"), r".", {}),
 }

@@ -40,10 +40,9 @@ struct Damping {
   void before_drift(State&, double) {}
   void on_force(State& s, double dt) {
     const double c = s.t + dt > until ? 0 : rate;
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      const NodeId n = reaction.nodes[i];
-      if (s.m[n] > 0) reaction.take_force(s, i, -damping_force(s, n, c, dt), dt);
-    }
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
+      if (s.m[n] > 0) reaction.take_force(s, i, -damping_force(s, n, c, h), h);
+    });
   }
   void after_kick(State&, double) {}
 };

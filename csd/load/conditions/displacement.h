@@ -33,18 +33,16 @@ struct PrescribedDisplacement {
     for (NodeId n : reaction.nodes) start_.push_back(dot(mesh.X[n], direction));
   }
   void before_drift(State& s, double dt) {
-    const double u = table.at(s.t + dt);
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      const NodeId n = reaction.nodes[i];
-      const double along = (start_[i] + u - dot(s.x[n], direction)) / dt;
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
+      const double along = (start_[i] + table.at(s.t + h) - dot(s.x[n], direction)) / h;
       reaction.set_velocity(s, n, along * direction + free_part(s.v[n]));
-    }
+    });
   }
   void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      const Vec3& f = s.f[reaction.nodes[i]];
-      reaction.take_force(s, i, f - free_part(f), dt);
-    }
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
+      const Vec3& f = s.f[n];
+      reaction.take_force(s, i, f - free_part(f), h);
+    });
   }
   void after_kick(State&, double) {}  // the velocity of the step stands for that at its end
 

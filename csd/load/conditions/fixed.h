@@ -19,11 +19,11 @@ struct Fixed {
     if (!k.is_manual()) place = k.where("nodes");
   }
   void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }
-  void before_drift(State& s, double) {
-    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, {});
+  void before_drift(State& s, double dt) {
+    reaction.for_due(s, dt, [&](size_t, NodeId n, double) { reaction.set_velocity(s, n, {}); });
   }
   void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) reaction.take_force(s, i, s.f[reaction.nodes[i]], dt);
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) { reaction.take_force(s, i, s.f[n], h); });
   }
   void after_kick(State&, double) {}
 };
@@ -33,12 +33,13 @@ struct OnPlane {
   Vec3 normal{};
   Reaction reaction;
 
-  void before_drift(State& s, double) {
-    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, s.v[n] - dot(normal, s.v[n]) * normal);
+  void before_drift(State& s, double dt) {
+    reaction.for_due(
+        s, dt, [&](size_t, NodeId n, double) { reaction.set_velocity(s, n, s.v[n] - dot(normal, s.v[n]) * normal); });
   }
   void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i)
-      reaction.take_force(s, i, dot(normal, s.f[reaction.nodes[i]]) * normal, dt);
+    reaction.for_due(s, dt,
+                     [&](size_t i, NodeId n, double h) { reaction.take_force(s, i, dot(normal, s.f[n]) * normal, h); });
   }
   void after_kick(State&, double) {}
 };

@@ -26,6 +26,12 @@ struct Reaction {
   void keep(A& a) {
     a.list("R", R), a.value("impulse", impulse), a.value("work", work);
   }
+  /// work(i, n, h) for the nodes that are due, h: the node's step where the shortest is dt.
+  template <class Work>
+  void for_due(const State& s, double dt, const Work& work) const {
+    for (size_t i = 0; i < nodes.size(); ++i)
+      if (s.local.is_due(nodes[i])) work(i, nodes[i], dt * s.local.steps_of(nodes[i]));
+  }
   /// Undoes take_force: the forces change within the step.
   void give_back(State& s) {
     for (size_t i = 0; i < nodes.size(); ++i) s.f[nodes[i]] -= R[i], R[i] = {};

@@ -80,35 +80,36 @@ struct RigidWall {
 
   void before_drift(State& s, double dt) {
     w_ = (factor ? factor->at(s.t + 0.5 * dt) : 1.0) * velocity;
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      const NodeId n = reaction.nodes[i];
-      if (is_left(n)) continue;
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
+      if (is_left(n)) return;
       const Vec3 v = s.v[n] - w_;
       const double gap = dot(s.x[n] - point, normal), v_n = dot(v, normal);
-      if (gap + dt * v_n >= 0) continue;
+      if (gap + h * v_n >= 0) return;
       touches_[i] = 1;
-      reaction.set_velocity(s, n, w_ + ((-gap / dt) * normal + sliding(v, -v_n)));  // ends on the plane
-    }
+      reaction.set_velocity(s, n, w_ + ((-gap / h) * normal + sliding(v, -v_n)));  // ends on the plane
+    });
   }
   void on_force(State& s, double dt) {
     point += dt * w_;
-    std::fill(momentum_.begin(), momentum_.end(), 0);
-    for (size_t n = 0; n < body_.size(); ++n)
-      if (!is_left(NodeId(int64_t(n))))
-        momentum_[size_t(body_[n])] += s.m[NodeId(int64_t(n))] * dot(s.v[NodeId(int64_t(n))] - w_, normal);
-    for (size_t i = 0; i < reaction.nodes.size(); ++i) {
-      const NodeId n = reaction.nodes[i];
+    if (s.local.all_due()) sum_momenta(s);
+    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
       if (is_left(n)) touches_[i] = 0, reaction.R[i] = {};
-      if (!touches_[i]) continue;
+      if (!touches_[i]) return;
       const double f_n = dot(s.f[n], normal);
       touches_[i] = f_n < 0 || (separation == "rebound" && momentum_[size_t(body_[size_t(n)])] < 0);
-      reaction.take_force(s, i, !touches_[i] ? Vec3{} : held(s, n, f_n, dt), dt);
+      reaction.take_force(s, i, !touches_[i] ? Vec3{} : held(s, n, f_n, h), h);
       if (touches_[i]) reaction.set_velocity(s, n, w_ + (friction == "stick" ? Vec3{} : along(s.v[n] - w_)));
-    }
+    });
   }
   void after_kick(State&, double) {}
 
  private:
+  void sum_momenta(const State& s) {
+    std::fill(momentum_.begin(), momentum_.end(), 0);
+    for (size_t n = 0; n < body_.size(); ++n)
+      if (!is_left(NodeId(int64_t(n))))
+        momentum_[size_t(body_[n])] += s.m[NodeId(int64_t(n))] * dot(s.v[NodeId(int64_t(n))] - w_, normal);
+  }
   bool is_left(NodeId n) const { return size_t(n) < is_left_.size() && is_left_[size_t(n)]; }
   Vec3 along(const Vec3& v) const { return v - dot(v, normal) * normal; }
   /// The largest part of `wish` that friction allows for `pressing`, impulses or forces alike.

@@ -27,12 +27,16 @@ struct PrescribedVelocity {
     if (!k.is_manual()) place = k.where("nodes");
   }
   void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }
-  void before_drift(State& s, double dt) { impose(s, s.t + 0.5 * dt); }
-  void on_force(State& s, double dt) {
-    for (size_t i = 0; i < reaction.nodes.size(); ++i)
-      reaction.take_force(s, i, prescribed(s.f[reaction.nodes[i]], {}), dt);
+  void before_drift(State& s, double dt) {
+    reaction.for_due(s, dt, [&](size_t, NodeId n, double h) { impose(s, n, s.t + 0.5 * h); });
   }
-  void after_kick(State& s, double dt) { impose(s, s.t + dt); }
+  void on_force(State& s, double dt) {
+    reaction.for_due(s, dt,
+                     [&](size_t i, NodeId n, double h) { reaction.take_force(s, i, prescribed(s.f[n], {}), h); });
+  }
+  void after_kick(State& s, double dt) {
+    reaction.for_due(s, dt, [&](size_t, NodeId n, double) { impose(s, n, s.t + dt); });
+  }
 
  private:
   /// The prescribed components from a, the others from b.
@@ -40,9 +44,8 @@ struct PrescribedVelocity {
     const auto has = [&](char c) { return components.find(c) != std::string::npos; };
     return {has('x') ? a.x : b.x, has('y') ? a.y : b.y, has('z') ? a.z : b.z};
   }
-  void impose(State& s, double t) {
-    const Vec3 v = (factor ? factor->at(t) : 1.0) * value;
-    for (NodeId n : reaction.nodes) reaction.set_velocity(s, n, prescribed(v, s.v[n]));
+  void impose(State& s, NodeId n, double t) {
+    reaction.set_velocity(s, n, prescribed((factor ? factor->at(t) : 1.0) * value, s.v[n]));
   }
 };
 
