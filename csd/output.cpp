@@ -93,6 +93,7 @@ void Output::keep(Archive a) {
   a.value("energy", energy_), a.value("mass", mass_), a.value("collapsed", collapsed_), a.value("momentum", momentum_);
   a.value("checkerboard", checkerboard_);
   watch_.keep(a);
+  a.value("element_steps", all_element_steps_), a.value("short_steps", short_steps_);
   if (!a.restores()) return;
   fields_.skip_to(t_fields_), rows_.skip_to(t_row_);
   series_.resume(t_fields_);
@@ -259,6 +260,7 @@ double Output::rate() const {
 
 void Output::tick(const Model& m) {
   element_steps_ += m.mesh.elem_count() * m.state.local.evaluations();
+  all_element_steps_ += m.mesh.elem_count() * m.state.local.evaluations();
   short_steps_ += m.state.local.shortest();
   const auto now = std::chrono::steady_clock::now();
   if (const double seconds = std::chrono::duration<double>(now - window_.start).count(); seconds > 0.25) {
@@ -304,7 +306,7 @@ void Output::finish(Model& m, const std::string& status, const std::string& mess
                 {"collapsed_elements", collapsed_}};
   if (m.state.local.most > 0) {
     sum.counts.emplace_back("short_steps", double(short_steps_));
-    sum.counts.emplace_back("element_steps", element_steps_);
+    sum.counts.emplace_back("element_steps", all_element_steps_);
   }
   if (m.physics.resting.skips) sum.counts.emplace_back("skipped_blocks", double(m.physics.resting.skips));
   if (m.physics.cracks) {

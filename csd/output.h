@@ -57,8 +57,9 @@ class Output {
   std::string last_dump_;
   double t_complete_ = -1, t_row_ = -1, t_fields_ = -1;
   int64_t rows_written_ = 0;  // when a checkpoint was made or read
-  double element_steps_ = 0;  // evaluated
-  int64_t short_steps_ = 0;   // the shortest of local steps
+  double element_steps_ = 0;      // evaluated since the program began
+  double all_element_steps_ = 0;  // since the run began
+  int64_t short_steps_ = 0;       // the shortest of local steps
   std::chrono::steady_clock::time_point start_;
   struct {
     double element_steps = 0, best = 0;  // best: 1/s
