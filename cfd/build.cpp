@@ -9,6 +9,7 @@
 #include "cfd/embed/cavity.h"
 #include "cfd/eos/library.h"
 #include "cfd/source/detonation.h"
+#include "cfd/light.h"
 #include "cfd/start/paint.h"
 #include "common/app/log.h"
 #include "common/math/random.h"
@@ -87,6 +88,8 @@ std::optional<Burn> make_burn(const Case& cs, const Forest& forest) {
   report_detonation(m, jwl, cj);
   Burn burn;
   burn.points = b.points;
+  burn.lines.assign(b.line.begin(), b.line.end());
+  burn.discs.assign(b.plane.begin(), b.plane.end());
   burn.start = b.start;
   burn.D = cj.D;
   burn.width = b.width;
@@ -97,8 +100,15 @@ std::optional<Burn> make_burn(const Case& cs, const Forest& forest) {
       burn.h = std::max(burn.h, shape.h[d]);
       burn.margin = std::max(burn.margin, forest.shape().h[d]);
     } else {
-      for (Vec3& p : burn.points) p[d] = 0.5 * (grid.lower[d] + grid.upper[d]);
+      const double middle = 0.5 * (grid.lower[d] + grid.upper[d]);
+      for (Vec3& p : burn.points) p[d] = middle;
+      for (LineLight& l : burn.lines) l.from[d] = l.to[d] = middle;
+      for (DiscLight& disc : burn.discs) disc.centre[d] = middle, disc.normal[d] = 0;
     }
+  for (DiscLight& disc : burn.discs) {
+    if (!(norm(disc.normal) > 0)) throw InputError(fmt::format("{}: expected planes whose normal has a part in a direction with cells", b.place));
+    disc.normal = unit(disc.normal);
+  }
   return burn;
 }
 
@@ -193,39 +203,6 @@ void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region,
   m.cavity_mass += density * cavity.exact_volume;
   if (last) say("cavity of {:.6g} m^3 ({:.6g} in {} cells, {:+.3f} %): {:.6g} kg of {}", cavity.exact_volume, cavity.cell_volume, cavity.cells.size(),
       100 * (cavity.cell_volume / cavity.exact_volume - 1), density * cavity.cell_volume, region.material);
-}
-
-/// A detonation point must lie in unburnt explosive; everything is burnt when the front has crossed all of it.
-void check_burn(Model& m, const Case& cs) {
-  Burn& burn = *m.setup.burn;
-  int64_t in_explosive = 0;
-  for (const Vec3& p : burn.points) {
-    const Forest::Cell c = m.forest.find(p);
-    bool inside = false;
-    if (c.block >= 0) {
-      const std::vector<uint8_t> blocked = blocked_cells(m, c.block);
-      const size_t cell = m.forest.shape().at(c.k, c.j, c.i);
-      inside = (blocked.empty() || !blocked[cell]) && m.state.block(c.block, Cons::alpha1)[cell] > 0.5;
-    }
-    if (m.forest.comm().max(int64_t(inside)) > 0) ++in_explosive;
-  }
-  if (in_explosive < int64_t(burn.points.size()))
-    throw InputError(fmt::format("{}: expected detonation points inside the explosive", cs.fluid.burn[0].place));
-  double far = 0;
-  for (int b = 0; b < m.forest.local_blocks(); ++b) {
-    const BlockShape& s = m.forest.shape(b);
-    const Vec3 lower = m.forest.lower(b);
-    const std::vector<uint8_t> blocked = blocked_cells(m, b);
-    for (int k = 0; k < s.n[2]; ++k)
-      for (int j = 0; j < s.n[1]; ++j)
-        for (int i = 0; i < s.n[0]; ++i) {
-          const size_t cell = s.at(k, j, i);
-          if (!(m.state.block(b, Cons::alpha1)[cell] > 0) || (!blocked.empty() && blocked[cell])) continue;
-          far = std::max(far, burn.distance(lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z}));
-        }
-  }
-  far = m.forest.comm().max(far);
-  burn.t_all = burn.start + (2 * far + (burn.width + 2) * burn.h) / burn.D;  // the explosive may have moved meanwhile
 }
 
 }  // namespace
@@ -351,7 +328,7 @@ void paint(Model& m, const Case& cs) {
     paint_regions(m, cs, true);
   }
   if (cs.fluid.perturbation > 0) perturb(m, cs.fluid.perturbation);
-  if (m.setup.burn) check_burn(m, cs);
+  if (m.setup.burn) light(m, cs);
 }
 
 }  // namespace bw::cfd

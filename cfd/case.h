@@ -11,6 +11,7 @@
 #include "cfd/medium.h"
 #include "cfd/records_case.h"
 #include "cfd/regions.h"
+#include "cfd/source/light.h"
 #include "cfd/start/case.h"
 #include "common/app/cli.h"
 #include "coupling/case.h"
@@ -132,20 +133,47 @@ struct MaterialCase {
   void resolve(Keys& k);
 };
 
+struct BurnLineCase : LineLight {
+  template <class K>
+  void describe(K& k) {
+    k.required("from", from, dim::length, "one end");
+    k.required("to", to, dim::length, "the other end");
+    k.expect(norm(to - from) > 0, "to", "a point apart from `from`");
+  }
+};
+
+struct BurnPlaneCase : DiscLight {
+  template <class K>
+  void describe(K& k) {
+    k.required("point", centre, dim::length, "its centre, or a point of it");
+    k.required("normal", normal, dim::none, "direction across it");
+    k.optional("radius", radius, dim::length, "of a disc around `point`; absent: a whole plane");
+    k.expect(norm(normal) > 0, "normal", "a direction");
+    k.expect(radius > 0, "radius", "a positive length");
+    if (norm(normal) > 0) normal = unit(normal);
+  }
+};
+
 struct BurnCase {
-  std::string material, place;
+  std::string material, place, path = "auto";
   std::vector<Vec3> points;
+  std::vector<BurnLineCase> line;
+  std::vector<BurnPlaneCase> plane;
   double start = 0, width = 3;
   template <class K>
   void describe(K& k) {
     k.required("material", material, "the explosive: a material with a JWL equation of state");
-    k.required("points", points, dim::length, "detonation points, inside the explosive");
+    k.optional("points", points, dim::length, "detonation points, inside the explosive");
+    k.tables("line", line, "lines that detonate all along at once");
+    k.tables("plane", plane, "planes or discs that detonate all over at once");
+    k.choice("path", path, {"auto", "straight"},
+             "auto: around corners, on the shortest way through the explosive, where straight lines leave it; straight: never");
     k.optional("start", start, dim::time, "time of detonation");
     k.optional("width", width, dim::none, "of the front, in cells");
-    k.expect(!points.empty(), "points", "at least one point");
+    k.expect(!points.empty() || !line.empty() || !plane.empty(), "points", "at least one point, line or plane");
     k.expect(start >= 0, "start", "a time, zero or positive");
     k.expect(width >= 1, "width", "at least one cell");
-    place = k.where("points");
+    place = k.where(points.empty() ? "material" : "points");
   }
 };
 

@@ -20,6 +20,12 @@ struct Run {
   double t = 0, explosive_mass = 0, cavity_mass = 0, burn_over = 0;
   int64_t step = 0;
 };
+/// Where the ways of a burn around corners are given.
+struct WayBox {
+  Vec3 lower, h;
+  std::array<int, 3> n{};
+  double most = 0;
+};
 /// Sums of Books that all ranks hold alike.
 struct WallSums {
   Vec3 wall_impulse, face_impulse, lip_impulse;
@@ -109,6 +115,11 @@ void write_checkpoint(const Case& cs, const Model& m, const Books& books, Output
   const Saved run = file.section("run");
   run.number("numbers",
              Run{m.state.t, m.explosive_mass, m.cavity_mass, m.setup.burn ? m.setup.burn->t_all : 0, m.state.step});
+  if (m.setup.burn && !m.setup.burn->ways.empty()) {
+    const WayTable& ways = m.setup.burn->ways;
+    run.number("way_box", WayBox{ways.lower, ways.h, ways.n, ways.most});
+    run.same("ways", ways.longer);
+  }
   save_blocks(m, file.section("blocks"));
   const Saved sums = file.section("books");
   sums.rows("swept", std::vector<Swept>{books.swept});
@@ -127,6 +138,10 @@ void restore_model(Model& m, const Restart& from, const coupling::WetSurface* su
   m.state.t = run.t, m.state.step = run.step;
   m.explosive_mass = run.explosive_mass, m.cavity_mass = run.cavity_mass;
   if (m.setup.burn) m.setup.burn->t_all = run.burn_over;
+  if (const Restored numbers = from.file.section("run"); m.setup.burn && numbers.has("ways")) {
+    const WayBox box = numbers.number<WayBox>("way_box");
+    m.setup.burn->ways = {box.lower, box.h, box.n, numbers.same<double>("ways"), box.most};
+  }
   if (m.walls && surface) m.walls->restore(from.file.section("walls"), *surface);
 }
 

@@ -45,6 +45,12 @@ def summary(directory, name):
     return json.loads(path.read_text()) if path.exists() else {}
 
 
+def gauges(directory):
+    """What each gauge of the fluid measured, by its name."""
+    path = pathlib.Path(directory) / "fluid_gauges.json"
+    return {gauge["name"]: gauge for gauge in json.loads(path.read_text())["gauges"]}
+
+
 class Solid:
     """points [n,3], hex [m,8], cell and point: dictionaries of arrays."""
 

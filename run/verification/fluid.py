@@ -163,69 +163,6 @@ def f6():
     yield from unit_rows("cfd", "F6.*:EosProperties.*", {"worst_D_error": 1e-3, "worst_P_CJ_error": 1e-3, "round_trip_error": 1e-12, "sound_speed_error": 1e-6})
 
 
-@case("F7")
-def f7():
-    """Plane detonation of TNT from a closed end: speed, pressure profile, tail, stored energy"""
-    tnt = reference.JWL_SETS["TNT"]
-    length, n = 0.1, 400
-    cj = tnt.cj_state()
-    end = 0.9 * length / cj["D"]
-    text = tube(0.0, length, n, 0, ("wall", "outflow"), end, fields_every=end / 3)
-    text += '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n'
-    text += '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "TNT"\nunburnt = true\npressure = 101325.0\n'
-    text += f'[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.0, {length / n / 2!r}, {length / n / 2!r}]]\n'
-    result = run("F7_planar", text, only="fluid")
-    times = [t for t, _ in fields.series(result.directory, "fluid")]
-    x, rho, u, p = profile(result.directory, 0)
-    t = times[-1]
-    xi = x / (cj["D"] * t)
-    p_exact, u_exact, tail = reference.planar_detonation(tnt, xi)
-    fan = (xi > 1.03 * tail[0]) & (xi <= 0.95)
-    yield at_most("p over the fan to xi=0.95: max relative error", np.abs(p[fan] / p_exact[fan] - 1).max(), 0.03, result.seconds)
-    still = (xi > 0.1) & (xi < 0.9 * tail[0])
-    yield close("pressure at rest behind the fan", p[still].mean(), tail[1], 0.02)
-    yield at_least("peak pressure over P_CJ (>= 0.9)", p.max() / cj["P"], 0.9)
-    fronts = []
-    for k in (-2, -1):
-        x, _, _, p = profile(result.directory, 0, k)
-        high = np.flatnonzero(p > 0.4 * cj["P"])[-1]
-        fronts.append(x[high] + (x[1] - x[0]) * (p[high] - 0.4 * cj["P"]) / (p[high] - p[high + 1]))
-    yield close("detonation speed", (fronts[1] - fronts[0]) / (times[-1] - times[-2]), cj["D"], 0.005)
-
-
-@case("F8")
-def f8():
-    """Sedov blast in an octant, 64^3: shock radius on axis and diagonal, peak density"""
-    n, size = 64, 1.2
-    h = size / n
-    energy = 0.851072 / 8
-    text = f"[time]\nend = 1.0\n" + output("1 s", "0.1 s")
-    text += f"[fluid]\nlower = [0, 0, 0]\nupper = [{size}, {size}, {size}]\ncells = [{n}, {n}, {n}]\n"
-    text += 'boundary = {x_upper = "outflow", y_upper = "outflow", z_upper = "outflow"}\n' + material("gas", reference.GAS)
-    text += region('{kind = "everywhere"}', "gas", 1.0, 1e-6)
-    edge = h * 1.0001
-    text += region(f'{{kind = "box", lower = [-1.0, -1.0, -1.0], upper = [{edge!r}, {edge!r}, {edge!r}]}}', "gas", 1.0, 0.4 * energy / h ** 3)
-    result = run("F8_octant", text, only="fluid")
-    flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
-    rho = flow.array("density")
-    centres = flow.centres(0)
-
-    def radius(values, r):
-        peak = int(np.argmax(values))
-        half = 0.5 * (1 + values[peak])
-        after = peak + int(np.flatnonzero(values[peak:] < half)[0])
-        a, b = values[after - 1], values[after]
-        return r[after - 1] + (a - half) / (a - b) * (r[after] - r[after - 1])
-    axis = np.mean([radius(rho[:, 0, 0], centres), radius(rho[0, :, 0], centres), radius(rho[0, 0, :], centres)])
-    diagonal = radius(rho[range(n), range(n), range(n)], centres * math.sqrt(3))
-    grid = np.sqrt(sum(np.meshgrid(centres ** 2, centres ** 2, centres ** 2, indexing="ij")))
-    bins = (grid / h).astype(int)
-    mean = np.bincount(bins.ravel(), rho.ravel()) / np.bincount(bins.ravel())
-    yield close("shock radius, mean over angles", radius(mean[:n], (np.arange(n) + 0.5) * h), 1.0, 0.01, result.seconds)
-    yield at_most("axis against diagonal radius", abs(axis / diagonal - 1), 0.01)
-    yield at_least("peak density (>= 3.5)", rho.max(), 3.5)
-
-
 @case("F10")
 def f10():
     """Impulsively started pistons, 50 to 2000 m/s, pushing and withdrawing: wall pressure and density, 400 cells"""

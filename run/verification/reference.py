@@ -272,6 +272,87 @@ def riemann_integral_fast(eos, rho_i, p_i, rho, points=24):
     return total
 
 
+def spherical_detonation(explosive, xi):
+    """F7: pressure and velocity at r = D t xi behind a detonation from a point; xi may be an array. Also the core's edge and pressure.
+    Self-similar and isentropic: with y = u - xi (over D), rho' = -rho y u'/c^2 and u' (1 - y^2/c^2) = -2 u/xi, from the sonic point at xi = 1,
+    where the slope is infinite; u ~ u_CJ - k sqrt(1 - xi) there, so it is left by steps of u."""
+    cj = explosive.cj_state()
+    d, rho_cj = cj["D"], explosive.rho0 / cj["V"]
+
+    def sound(rho):
+        return explosive.sound_speed(rho, explosive.isentrope(rho, rho_cj, cj["P"])) / d
+
+    def slopes(u, xi, rho):  # d xi/du and d rho/du
+        y, c = u - xi, sound(rho)
+        return -xi * (1 - (y / c) ** 2) / (2 * u), -rho * y / c ** 2
+    steps = 4000
+    us = cj["u"] / d * (1 - np.linspace(0, 1, steps + 1)) ** 2  # finer towards the core, where xi is stationary
+    xi_at, rho, table = 1.0, rho_cj, [(1.0, rho_cj, us[0])]
+    for u, u_next in zip(us[:-2], us[1:-1]):
+        h = u_next - u
+        a1, b1 = slopes(u, xi_at, rho)
+        a2, b2 = slopes(u + h / 2, xi_at + h / 2 * a1, rho + h / 2 * b1)
+        a3, b3 = slopes(u + h / 2, xi_at + h / 2 * a2, rho + h / 2 * b2)
+        a4, b4 = slopes(u_next, xi_at + h * a3, rho + h * b3)
+        xi_at, rho = xi_at + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), rho + h / 6 * (b1 + 2 * b2 + 2 * b3 + b4)
+        table.append((xi_at, rho, u_next))
+    table = np.array(table[::-1])
+    p_table = np.array([explosive.isentrope(value, rho_cj, cj["P"]) for value in table[:, 1]])
+    return np.interp(xi, table[:, 0], p_table), d * np.interp(xi, table[:, 0], table[:, 2], left=0.0), (table[0, 0], p_table[0])
+
+
+# --- blast ------------------------------------------------------------------------------------------------------------------------------
+# Kingery & Bulmash, ARBRL-TR-02555 (1984), free-air sphere of TNT: log10 Y = sum c_i U^i, U = K0 + K1 log10 Z; Z m/kg^(1/3)
+KB_PRESSURE = ((-.214362789151, 1.35034249993), (2.611368669, -1.69012801396, .00804973591951, .336743114941, -.00516226351334, -.0809228619888,
+                                                 -.00478507266747, .00793030472242, .0007684469735))
+KB_ARRIVAL = ((-.253273111999, 1.37407043777), (.0720707787637, 1.36456871214, -.0570035692784, -.182832224796, .0118851436014, .0432648687627,
+                                                -.0007997367834, -.00436073555033))
+KB_IMPULSE_NEAR = ((2.34723921354, 3.24299066475), (2.38830516757, -.443749377691, .168825414684, .0348138030308, -.010435192824))
+KB_IMPULSE = ((-1.75305660315, 2.30629231803), (1.55197227115, -.40463292088, -.0142721946082, .00912366316617, -.0006750681404, -.00800863718901,
+                                                .00314819515931, .00152044783382, -.0007470265899))
+
+
+def kingery_bulmash(z, mass):
+    """Overpressure [Pa], arrival [s] and impulse [Pa s] of the incident wave of `mass` kg at Z = z."""
+    def fit(coefficients):
+        (k0, k1), c = coefficients
+        u = k0 + k1 * math.log10(z)
+        return 10 ** sum(c_i * u ** i for i, c_i in enumerate(c))
+    size = mass ** (1 / 3)
+    return 1e3 * fit(KB_PRESSURE), 1e-3 * size * fit(KB_ARRIVAL), size * fit(KB_IMPULSE_NEAR if z < .792 else KB_IMPULSE)
+
+
+def sedov_constants(gamma, dimensions):
+    """F8: alpha in R = (E t^2/(alpha rho))^(1/(n+2)) and the core's pressure over that behind the shock, by Runge-Kutta from the shock inwards.
+    With r = R s, u = R' V(s), rho = rho0 G(s), p = rho0 R'^2 P(s), and R'' = -n/2 R'^2/R:
+      (V - s) G' + G V' = -(n-1) G V/s,  (V - s) V' + P'/G = n/2 V,  (V - s)(P' - gamma P G'/G) = n P."""
+    n, g = dimensions, gamma
+
+    def slopes(s, y):
+        v, rho, p = y
+        w = v - s
+        matrix = np.array([[rho, w, 0.0], [w, 0.0, 1 / rho], [0.0, -g * p * w / rho, w]])
+        return np.linalg.solve(matrix, np.array([-(n - 1) * rho * v / s, 0.5 * n * v, n * p]))
+    y = np.array([2 / (g + 1), (g + 1) / (g - 1), 2 / (g + 1)])
+    p2, energy, s = y[2], 0.0, 1.0
+    nodes = np.exp(np.linspace(0, math.log(0.05), 2500))  # below, u ~ s and p is constant
+    for s_next in nodes[1:]:
+        h = s_next - s
+        k1 = slopes(s, y)
+        k2 = slopes(s + h / 2, y + h / 2 * k1)
+        k3 = slopes(s + h / 2, y + h / 2 * k2)
+        k4 = slopes(s_next, y + h * k3)
+        new = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+        def density(s_at, at):
+            return (0.5 * at[1] * at[0] ** 2 + at[2] / (g - 1)) * s_at ** (n - 1)
+        energy += abs(h) * (density(s, y) + 4 * density(s + h / 2, 0.5 * (y + new) + h / 8 * (k1 - k4)) + density(s_next, new)) / 6
+        y, s = new, s_next
+    energy += y[2] / (g - 1) * s ** n / n
+    area = {1: 2.0, 2: 2 * math.pi, 3: 4 * math.pi}[n]
+    return area * energy * (2 / (n + 2)) ** 2, y[2] / p2
+
+
 # --- solid ---------------------------------------------------------------------------------------------------------------------------
 def first_stop(r0, v0, acceleration):
     """ln(r/r0) and time at which r'' = acceleration(r), from r0 at speed v0, first stops (Runge-Kutta)."""
