@@ -2,9 +2,8 @@
 """Local time steps of the solid against one step for all."""
 import numpy as np
 
-from . import fields
 from .case import at_least, at_most, case, close, output, run
-from .solid import PAPER_STEEL, j2, taylor
+from .solid import PAPER_STEEL, fields, j2, taylor
 
 LEVELS = "[solid.time_step]\nlevels = 3\n"
 
