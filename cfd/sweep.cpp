@@ -77,13 +77,15 @@ void Sweep::select(const State& s, double dt) {
                    end{first[0] + n[0], first[1] + n[1], first[2] + n[2]};
       const bool finest = forest_.level(b) == forest_.levels();
       // a coarser block is in metal or away from it (cfd/amr/criteria.h)
-      near_[size_t(b)] = finest && !walls_->near(first)                                          ? far
-                         : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end) ? metal
-                         : finest                                                                ? near
-                                                                                                 : far;
+      near_[size_t(b)] = finest && !walls_->near(first) ? far
+                         : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end)
+                             ? metal
+                         : finest ? near
+                                  : far;
       if (near_[size_t(b)] == far && !finest && walls_->map().holds_any(first, end))
-        throw PhysicsError(fmt::format("a wall reached a block of level {}, not the finest, at t = {:.9g} s: raise fluid.amr.wall_cells",
-                                       forest_.level(b), s.t));
+        throw PhysicsError(fmt::format(
+            "a wall reached a block of level {}, not the finest, at t = {:.9g} s: raise fluid.amr.wall_cells",
+            forest_.level(b), s.t));
       if (near_[size_t(b)] == near) active_.push_back(b);
       if (near_[size_t(b)] != far) continue;
     }
@@ -104,7 +106,8 @@ void Sweep::rest_at_sides(const State& s, int block, Booked& booked) const {
       double U[Cons::count], W[Prim::stored];
       std::copy_n(s.info[size_t(block)].U, int(Cons::count), U);
       std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
-      const double area = shape.side_volume(forest_.lower(block).x, d, upper) / shape.h[d] * (shape.cells() / shape.n[d]);
+      const double area =
+          shape.side_volume(forest_.lower(block).x, d, upper) / shape.h[d] * (shape.cells() / shape.n[d]);
       booked.side[2 * d + upper][Cons::mom + d] += W[Prim::p] * dt_ * area;
     }
 }
@@ -133,7 +136,9 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   UpdateInput in{
       &setup_.medium, setup_.burn ? &*setup_.burn : nullptr, patch.material != 2 && burns(block), t_, t_ + dt_,
       first_order};
-  find_shocks(patch);
+  const int m = patch.material;
+  const bool is_gas_block = m != 0 && setup_.medium.is_gas[m - 1];
+  patch.shocked = is_gas_block && find_shocks(patch);
   if (in.burns) fill_stored_energy(*setup_.burn, t_ + 0.5 * dt_, patch);
   change.book_sides = 0;
   for (int d = 0; d < 3; ++d)
@@ -141,13 +146,12 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
       if (shape.used[size_t(d)] && forest_.at_side(block, d, upper)) change.book_sides |= 1u << (2 * d + upper);
   change.keep_sides = fluxes_.sides(block);
   change.make_sides();
-  const int m = patch.material;
   if (shape.radial()) {
     unsigned mirror = 0;
     for (int upper = 0; upper < 2; ++upper)
       if (setup_.boundary.side[upper].kind == SideKind::wall && forest_.at_side(block, 0, upper)) mirror |= 1u << upper;
     advance_radial(patch, setup_.medium, dt_, mirror, space.radial, change);
-  } else if (m != 0 && setup_.medium.is_gas[m - 1])
+  } else if (is_gas_block)
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
     space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);

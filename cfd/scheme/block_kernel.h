@@ -33,14 +33,16 @@ struct BlockChange {
   unsigned book_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted
   double side[6][Cons::count] = {};  ///< out: sum over the side's faces of flux * dt/h_d, for book_sides
   unsigned keep_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted face by face
-  /// Out, for keep_sides: flux * dt/h_d, then face velocity * dt/h_d. [variable][faces], j + n_j k, i + n_i k or i + n_i
-  /// j, with room for hanging packs. Rows that the flow does not own are left alone.
+  /// Out, for keep_sides: flux * dt/h_d, then face velocity * dt/h_d. [variable][faces], j + n_j k, i + n_i k or i +
+  /// n_i j, with room for hanging packs. Rows that the flow does not own are left alone.
   Aligned<double> side_flux[6];
   static constexpr int side_rows = Cons::count + 1;
 
   size_t side_pitch(int d) const { return size_t(shape.cells() / shape.n[size_t(d)]) + 8; }
   double* side_row(int side, int variable) { return side_flux[side].data() + side_pitch(side / 2) * size_t(variable); }
-  const double* side_row(int side, int variable) const { return const_cast<BlockChange*>(this)->side_row(side, variable); }
+  const double* side_row(int side, int variable) const {
+    return const_cast<BlockChange*>(this)->side_row(side, variable);
+  }
   /// Room for the fluxes of the sides in keep_sides, zero.
   void make_sides() {
     for (int side = 0; side < 6; ++side)
@@ -179,11 +181,12 @@ class BlockKernel {
     if constexpr (Flow::mixed)
       if (f.z_low)
         F[Cons::rhoE] += F[Cons::arho1] * (T(0.5) * (Lane<T>::load(f.z_low + i) + Lane<T>::load(f.z_high + i)));
-    if (f.shock_low) {
-      const T in_shock = max(Lane<T>::load(f.shock_low + i), Lane<T>::load(f.shock_high + i));
-      if (any(in_shock > T(0)))
-        damp_along_shock<axis, Flow>(L, R, max(Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i)), in_shock, F);
-    }
+    if constexpr (!Flow::mixed)
+      if (f.shock_low) {
+        const T in_shock = max(Lane<T>::load(f.shock_low + i), Lane<T>::load(f.shock_high + i));
+        if (any(in_shock > T(0)))
+          damp_along_shock<axis, Flow>(L, R, max(Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i)), in_shock, F);
+      }
     for (int q = 0; q < n_flux; ++q) F[q] = f.lambda * F[q];
     return f.lambda * v_face;
   }

@@ -7,10 +7,10 @@
 
 namespace bw::cfd {
 
-void find_shocks(Patch& patch) {
+bool find_shocks(Patch& patch) {
   const BlockShape& s = patch.shape();
-  patch.shocked = false;
-  if (int(s.used[0]) + s.used[1] + s.used[2] < 2) return;
+  if (int(s.used[0]) + s.used[1] + s.used[2] < 2) return false;
+  bool found = false;
   const ptrdiff_t step[3] = {1, patch.stride_j(), patch.stride_k()};
   const int g[3] = {s.used[0], s.used[1], s.used[2]};
   for (int k = -g[2]; k < s.n[2] + g[2]; ++k)
@@ -26,9 +26,10 @@ void find_shocks(Patch& patch) {
         }
         const auto in = jump > Pack(0.0);
         select(in, Pack(1.0), Pack(0.0)).store(out + i);
-        for (int l = 0; l < std::min(Pack::size, s.n[0] + g[0] - i); ++l) patch.shocked = patch.shocked || in[l];
+        for (int l = 0; l < std::min(Pack::size, s.n[0] + g[0] - i); ++l) found = found || in[l];
       }
     }
+  return found;
 }
 
 }  // namespace bw::cfd

@@ -99,6 +99,14 @@ TEST(Ways, ABentChargeIsLitAroundItsCorner) {
   EXPECT_NEAR(straight.m.setup.burn->distance(end), norm(end - point), 1e-15);
 }
 
+TEST(Ways, ABentChargeBurnsInSteadySteps) {
+  Flow f(bend + "points = [[0.085, 0.02, 0]]\n");
+  const double before = f.sums().U[Cons::arho1] + f.sums().U[Cons::arho2];
+  f.steps(360);
+  EXPECT_GT(f.m.state.t, 1.8e-5);                                                         // all of it has burnt
+  EXPECT_NEAR(f.sums().U[Cons::arho1] + f.sums().U[Cons::arho2], before, 1e-7 * before);  // traces are taken away
+}
+
 TEST(Ways, LinesAndPlanesLightACharge) {
   Flow line(bend + "[[fluid.burn.line]]\nfrom = [0.02, 0.02, 0]\nto = [0.02, 0.085, 0]\n"),
       plane(bend + "[[fluid.burn.plane]]\npoint = [0.02, 0.02, 0]\nnormal = [0, 2, 0]\n");
