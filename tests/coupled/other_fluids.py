@@ -119,7 +119,7 @@ def installed():
     shutil.rmtree(prefix, ignore_errors=True)
     shutil.rmtree(client, ignore_errors=True)
     for command in (["cmake", "--install", BUILD, "--prefix", prefix],
-                    ["cmake", "-S", SOURCE / "tests" / "coupled" / "c_client", "-B", client, f"-DCMAKE_PREFIX_PATH={prefix}"],
+                    ["cmake", "-G", "Ninja", "-S", SOURCE / "tests" / "coupled" / "c_client", "-B", client, f"-DCMAKE_PREFIX_PATH={prefix}"],
                     ["cmake", "--build", client]):
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if done.returncode != 0:
