@@ -36,17 +36,14 @@ struct Viscous {
   return {stress, eta / m.volumetric.stiffness(volume / V0)};
 }
 
-/// Adds a block's forces as impulses over its own step; in the last evaluation before new levels, by those as well.
-[[gnu::noinline]] void scatter_levels(Corners<Pack> f, const int32_t* nodes, int count, double steps, int block,
-                                      State& s) {
-  const auto scaled = [&](double factor) {
-    Corners<Pack> g;
-    for (int a = 0; a < 8; ++a) g.a[a] = Pack(factor) * f.a[a];
-    return g;
-  };
-  scatter_add(scaled(steps), nodes, count, s.sums.data());
-  if (s.local.is_pending() && s.local.all_due())
-    scatter_add(scaled(s.local.next_steps_of_block(block)), nodes, count, s.next_sums.data());
+void scale(Corners<Pack>& f, double factor) {
+  for (int a = 0; a < 8; ++a) f.a[a] = Pack(factor) * f.a[a];
+}
+/// Adds a block's forces by the levels to come; f: as impulses over the block's present step.
+[[gnu::noinline]] void scatter_next(Corners<Pack> f, const int32_t* nodes, int count, double steps, int block,
+                                    State& s) {
+  scale(f, s.local.next_steps_of_block(block) / steps);
+  scatter_add(f, nodes, count, s.next_sums.data());
 }
 
 /// Forces of one block, none if it rests; returns the work spent in viscosity.
@@ -55,6 +52,7 @@ template <class M, class Mean>
                                     double dt, bool rests, State& s) {
   const double per_dt = dt > 0 ? 1 / dt : 0;
   const double steps = s.local.steps_of_block(block);
+  const bool is_last = s.local.is_pending() && s.local.all_due();  // before new levels
   PointHistory& histories = s.history[size_t(body)];
   const int row = el.blocks.row_of(body, block);
   HistoryBuffer<M> buffer;
@@ -74,13 +72,13 @@ template <class M, class Mean>
         per_dt, skips);
     flowed |= r.flowed;
     if (rests) r.f = {};  // round-off
+    if (steps > 1) scale(r.f, steps);
     const int count = std::min(used - l, Pack::size);
     if (const int32_t* places = el.blocks.border.of(block))
       scatter_border(r.f, nodes + l, places + l, count, s.sums.data(), el.blocks.border.vectors);
-    else if (steps == 1 && !s.local.is_pending())
-      scatter_add(r.f, nodes + l, count, s.sums.data());
     else
-      scatter_levels(r.f, nodes + l, count, steps, block, s);
+      scatter_add(r.f, nodes + l, count, s.sums.data());
+    if (is_last) scatter_next(r.f, nodes + l, count, steps, block, s);
     const Pack J_bar = r.volume / V0;
     const Pack omega2 =
         centroid_omega2(r.centre, J_bar, material.volumetric.stiffness(J_bar), material.mu, material.density);
