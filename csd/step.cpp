@@ -132,7 +132,8 @@ void step(Model& m, double dt) {
 }
 
 double stable_step(Model& m) {
-  auto& [mesh, topology, s, ph] = m;
+  State& s = m.state;
+  Physics& ph = m.physics;
   double elements = ph.time_step.stable(ph.elements, s);
   if (s.local.most > 0 && ph.time_step.refreshed())
     s.local.propose(ph.elements.blocks, choose_levels(ph.elements, ph.time_step, s),
