@@ -110,7 +110,7 @@ class Pieces {
     a.list("bin", bin_), a.list("seen", seen_), a.list("let_go", let_go_), a.list("edges", edges),
         a.list("rows", rows_);
     a.value("step", step_), a.value("bins", bin_count_);
-    edges_ = {edges.begin(), edges.end()};
+    edges_.clear(), edges_.insert(edges.begin(), edges.end());
   }
 
  private:
