@@ -296,6 +296,7 @@ class CutKernel {
       inner[q] = own.half[q] + 0.5 * out * own.slope[d][q];
       beyond[q] = face[q];
     }
+    if (!own.pocket && behind_fan(inner, face, w.n, wall.c)) std::copy(beyond, beyond + n, inner);
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = out * shape_.cell_volume();
@@ -304,6 +305,13 @@ class CutKernel {
     exchange_->energy += volume * f.F[Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE)];
     ++exchange_->links;
     return f;
+  }
+
+  /// Has the fan that a receding wall sends into the gas passed the cell face? Then the wall's gas is what goes through
+  /// it; a flux between the two states would be that of a shock and leave gas of wrong entropy at the wall.
+  static bool behind_fan(const double (&inner)[n], const State& at_wall, const Vec3& normal, double c) {
+    const double v = dot(Gas::velocity(at_wall), normal);
+    return v < dot(Vec3{inner[Gas::v], inner[Gas::v + 1], inner[Gas::v + 2]}, normal) && v + c >= 0;
   }
 
   /// Sums over the sides of the block again: the block kernel's hold fluxes through walls.

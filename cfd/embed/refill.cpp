@@ -6,6 +6,9 @@
 namespace bw::cfd {
 namespace {
 
+/// Of two with one sign the smaller, else 0.
+double smaller(double a, double b) { return a * b <= 0 ? 0 : std::abs(a) < std::abs(b) ? a : b; }
+
 template <class Mix>
 class Refill {
   using Gas = WallGas<MixtureAtWall<Mix>>;
@@ -32,6 +35,12 @@ class Refill {
         } else {
           value[count] = Gas::beyond(A, B, 1);
           weight[count] = 0.005;
+        }
+        if (Gas::same_composition(A, B)) {
+          Index3 c;
+          const State C = valid(a, d, side, b) && valid(b, d, side, c) ? state(c) : B;
+          const double last = gas_.denser_than_isentrope(A, B), before = gas_.denser_than_isentrope(B, C);
+          gas_.put_on_isentrope(A, std::exp(smaller(last, before)), value[count]);
         }
         // behind a wall that runs away from its gas: near vacuum, but not less in every next cell
         if (Gas::rho(value[count]) < refill_share * Gas::rho(A))

@@ -11,13 +11,14 @@ namespace bw::cfd {
 /// Least density and pressure of a fresh cell in shares of its neighbour's.
 inline constexpr double refill_share = 1e-3;
 
-/// Conserved state of a cell of the lattice; called for cells up to two away from the fresh one.
+/// Conserved state of a cell of the lattice; called for cells up to three away from the fresh one.
 using CellReader = std::function<void(const Index3& cell, double (&U)[Cons::count])>;
 
 /// U of a fresh cell: mean over the directions with a valid neighbour A (open, not fresh, link not cut),
 /// - wall on the other side: on the line from the wall's state (half-Riemann of the gas at A, prolonged through B
 /// behind it) to A, with
-///   weight n_d^2: inside the range of the two;
+///   weight n_d^2: inside the range of the two; its density from A's isentrope, off it by no more than A is off B's and
+///   B off that of the next cell (what an impulsive start did to the entropy beside the wall would grow otherwise);
 /// - else the line through B and A prolonged, or A; with a small weight.
 /// Composition comes from the neighbour of the largest weight and neighbours like it: nothing is mixed.
 /// false: it has no valid neighbour.

@@ -92,6 +92,23 @@ struct WallGas {
     return {at, std::max(rho_c2(sum, star.p, G), 0.0)};
   }
 
+  /// Density on the isentrope through w where the pressure is p; the sound speed at w sets the gas.
+  double on_isentrope(const State& w, double pressure) const {
+    const double G = eos.G(w), K = std::max(rho_c2(eos.sum(w), w[p], G), 1e-12 * w[p]);
+    const detail::LocalGas g(w[p], K, G);
+    return rho(w) * std::pow(std::max((pressure + g.p_inf) / g.P, wall_vacuum), 1 / g.gamma);
+  }
+  /// ln of the density of w over that on the isentrope through `other`.
+  double denser_than_isentrope(const State& w, const State& other) const {
+    return std::log(rho(w) / on_isentrope(other, w[p]));
+  }
+  /// Densities of `out`, whose pressure is set: of the isentrope through w, times `factor`.
+  void put_on_isentrope(const State& w, double factor, State& out) const {
+    const double ratio = factor * on_isentrope(w, out[p]) / rho(w);
+    for (int q = 0; q < densities; ++q) out[size_t(q)] = ratio * w[size_t(q)];
+    if constexpr (Flow::mixed) out[Prim::Pi] = eos.sum(out).pi;
+  }
+
   /// w + share (w - other), the line from a neighbour through w prolonged towards a wall: less of it where density or
   /// pressure would change by more than a factor of two. Composition is w's; where it varies, so are the densities.
   static State beyond(const State& w, const State& other, double share) {
