@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <thread>
 
@@ -101,16 +100,7 @@ int Fluid::run() {
 }
 
 void Fluid::say_strange_hello() {
-  HelloBlock h = pack(hello, cs, "fluid", 1);
-  if (is("version")) h.major = 2;
-  if (is("magic")) std::memset(h.magic, 'x', sizeof h.magic);
-  if (is("p_ref")) h.p_ref = 2 * h.p_ref + 1;
-  if (is("apart"))
-    for (double& x : h.lower) x = 9e29;
-  channel.wait({tag_hello});
-  mark_accident();
-  channel.send(tag_hello, &h, sizeof h);
-  channel.flush();
+  strange_hello(channel, pack(hello, cs, "fluid", 1), o.scenario);
   channel.wait({tag_step});
   found_wanting("the program went on as if nothing were wrong");
 }

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <thread>
 
@@ -124,14 +123,7 @@ int Solid::run() {
 }
 
 void Solid::say_strange_hello() {
-  HelloBlock h = pack(hello, cs, "solid", 1);
-  if (is("version")) h.major = 2;
-  if (is("magic")) std::memset(h.magic, 'x', sizeof h.magic);
-  if (is("p_ref")) h.p_ref = 2 * h.p_ref + 1;
-  channel.wait({tag_hello});
-  mark_accident();
-  channel.send(tag_hello, &h, sizeof h);
-  channel.flush();
+  strange_hello(channel, pack(hello, cs, "solid", 1), o.scenario);
   channel.wait({tag_load});
 }
 

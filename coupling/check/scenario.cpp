@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstring>
 
 #include "common/app/error.h"
 #include "common/app/log.h"
@@ -110,6 +111,18 @@ void found_wanting(const std::string& text) { throw CodedError(exit_found_wantin
 void mark_accident() {
   const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   error_line(fmt::format("accident at {:.6f}", now));
+}
+
+void strange_hello(Channel& channel, HelloBlock h, const std::string& scenario) {
+  if (scenario == "version") h.major = 2;
+  if (scenario == "magic") std::memset(h.magic, 'x', sizeof h.magic);
+  if (scenario == "p_ref") h.p_ref = 2 * h.p_ref + 1;
+  if (scenario == "apart")
+    for (double& x : h.lower) x = 9e29;
+  channel.wait({tag_hello});
+  mark_accident();
+  channel.send(tag_hello, &h, sizeof h);
+  channel.flush();
 }
 
 }  // namespace bw::coupling::check

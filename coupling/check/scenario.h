@@ -6,6 +6,7 @@
 
 #include "coupling/channel.h"
 #include "coupling/check/options.h"
+#include "coupling/messages.h"
 
 namespace bw::coupling::check {
 
@@ -27,6 +28,8 @@ constexpr int exit_found_wanting = 9;
 [[noreturn]] void found_wanting(const std::string& text);
 /// A line for the driver: the clock of an accident on purpose.
 void mark_accident();
+/// Says HELLO with what the scenario makes wrong in it, after the peer's has come.
+void strange_hello(Channel& channel, HelloBlock h, const std::string& scenario);
 constexpr double short_silence = 2;  ///< s, silence limit of the scenarios that wait for it
 
 int play_solid(Channel& channel, const Options& options);

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the coupled tests share: mpirun's environment and a pair that is started and looked at."""
+"""What tests that start MPI share: mpirun's environment and a pair that is started and looked at."""
 import csv
 import os
 import subprocess
 
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive",
-                   OMP_NUM_THREADS="1", BREAKWAVE_PROGRESS="off")
+                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_fcoll="dynamic_gen2",
+                   OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1", BREAKWAVE_PROGRESS="off")
 
 
 def mpirun(*programs, timeout=60):

@@ -4,18 +4,16 @@
 
 pairs.py <folder of executables> <group> [scenario]
 """
-import os
 import re
 import subprocess
 import sys
 import time
 
+from launch import ENVIRONMENT
+
 FOLDER, GROUP = sys.argv[1:3]
 ONLY = sys.argv[3] if len(sys.argv) > 3 else None
 LIMIT = 5.0  # s from accident to the end of all processes; on an idle machine it is below 2
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive",
-                   OMP_NUM_THREADS="1")
 ENDED = r"ended from outside"
 
 

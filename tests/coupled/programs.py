@@ -12,10 +12,9 @@ import sys
 import threading
 import time
 
+from launch import ENVIRONMENT
+
 FOLDER, CASE, OUT = sys.argv[1:4]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive",
-                   OMP_NUM_THREADS="1")
 LIMIT = 5.0  # s from accident to end; below 2 on an idle machine
 
 

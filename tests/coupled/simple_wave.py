@@ -10,10 +10,9 @@ import os
 import subprocess
 import sys
 
+from launch import ENVIRONMENT
+
 FOLDER, OUT = sys.argv[1:3]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive",
-                   OMP_NUM_THREADS="1")
 CASE = """
 [time]
 end = "1 ms"

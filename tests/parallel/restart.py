@@ -11,11 +11,12 @@ import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parents[1] / "run"), str(HERE.parents[1] / "tests" / "regression")]
+sys.path += [str(HERE.parents[1] / "run"), str(HERE.parent / "regression"), str(HERE.parent / "coupled")]
 os.environ["BREAKWAVE_BUILD"] = str(pathlib.Path(sys.argv[1]).resolve())
 sys.argv = sys.argv[:2]
 import runs  # noqa: E402
 from fields import history  # noqa: E402
+from launch import ENVIRONMENT  # noqa: E402
 from verification.case import BUILD, WORK, output  # noqa: E402
 
 # levels that change, a burn under way, a body that covers and uncovers cells, records of all kinds
@@ -31,10 +32,6 @@ CASE = ("[time]\nend = \"30 us\"\n" + output("5 us", "0 s") + "CHECKPOINT"
         + 'motion = {kind = "velocity", value = [600.0, 0.0, 0.0]}\n'
         + '[[fluid.gauge]]\nname = "near"\nposition = [0.12, 0.07, 0.1]\n[[fluid.gauge]]\nname = "swept"\nposition = [0.178, 0.06, 0.1]\n'
         + '[[fluid.plane]]\nname = "cut"\nnormal = "y"\nat = 0.05\nevery = "4 us"\n[fluid.map]\ncells = [40, 20, 1]\n')
-ENVIRONMENT = os.environ | {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_fcoll": "dynamic_gen2",
-    "BREAKWAVE_PROGRESS": "off", "OMP_WAIT_POLICY": "passive"}
 
 
 def start(folder, checkpoint, ranks=1, threads=1, arguments=()):

@@ -12,13 +12,13 @@ import subprocess
 import sys
 import time
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parent))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE), str(HERE.parent / "coupled")]
 import csd  # noqa: E402
 import runs  # noqa: E402  (csd.py has set the path)
+from launch import ENVIRONMENT  # noqa: E402
 from verification.case import WORK, run  # noqa: E402
 
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
-                   OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive", BREAKWAVE_PROGRESS="off")
 BUILD = pathlib.Path(os.environ["BREAKWAVE_BUILD"])
 
 

@@ -33,10 +33,12 @@ struct PrescribedDisplacement {
     for (NodeId n : reaction.nodes) start_.push_back(dot(mesh.X[n], direction));
   }
   void before_drift(State& s, double dt) {
-    reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {
-      const double along = (start_[i] + table.at(s.t + h) - dot(s.x[n], direction)) / h;
-      reaction.set_velocity(s, n, along * direction + free_part(s.v[n]));
-    });
+    reaction.for_due(
+        s, dt, [&](double h) { return table.at(s.t + h); },
+        [&](size_t i, NodeId n, double h, double displaced) {
+          const double along = (start_[i] + displaced - dot(s.x[n], direction)) / h;
+          reaction.set_velocity(s, n, along * direction + free_part(s.v[n]));
+        });
   }
   void on_force(State& s, double dt) {
     reaction.for_due(s, dt, [&](size_t i, NodeId n, double h) {

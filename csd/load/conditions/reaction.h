@@ -32,6 +32,16 @@ struct Reaction {
     for (size_t i = 0; i < nodes.size(); ++i)
       if (s.local.is_due(nodes[i])) work(i, nodes[i], dt * s.local.steps_of(nodes[i]));
   }
+  /// The same with value(h) as work's last argument, found anew only where h differs from the node before.
+  template <class Value, class Work>
+  void for_due(const State& s, double dt, const Value& value, const Work& work) const {
+    double known_h = dt;
+    auto known = value(dt);
+    for_due(s, dt, [&](size_t i, NodeId n, double h) {
+      if (h != known_h) known_h = h, known = value(h);
+      work(i, n, h, known);
+    });
+  }
   /// Undoes take_force: the forces change within the step.
   void give_back(State& s) {
     for (size_t i = 0; i < nodes.size(); ++i) s.f[nodes[i]] -= R[i], R[i] = {};

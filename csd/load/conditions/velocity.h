@@ -28,14 +28,17 @@ struct PrescribedVelocity {
   }
   void select(const Mesh& mesh) { reaction.renew(node_set(mesh, nodes, place), size_t(mesh.node_count())); }
   void before_drift(State& s, double dt) {
-    reaction.for_due(s, dt, [&](size_t, NodeId n, double h) { impose(s, n, s.t + 0.5 * h); });
+    reaction.for_due(
+        s, dt, [&](double h) { return at(s.t + 0.5 * h); },
+        [&](size_t, NodeId n, double, const Vec3& v) { impose(s, n, v); });
   }
   void on_force(State& s, double dt) {
     reaction.for_due(s, dt,
                      [&](size_t i, NodeId n, double h) { reaction.take_force(s, i, prescribed(s.f[n], {}), h); });
   }
   void after_kick(State& s, double dt) {
-    reaction.for_due(s, dt, [&](size_t, NodeId n, double) { impose(s, n, s.t + dt); });
+    const Vec3 v = at(s.t + dt);
+    reaction.for_due(s, dt, [&](size_t, NodeId n, double) { impose(s, n, v); });
   }
 
  private:
@@ -44,9 +47,8 @@ struct PrescribedVelocity {
     const auto has = [&](char c) { return components.find(c) != std::string::npos; };
     return {has('x') ? a.x : b.x, has('y') ? a.y : b.y, has('z') ? a.z : b.z};
   }
-  void impose(State& s, NodeId n, double t) {
-    reaction.set_velocity(s, n, prescribed((factor ? factor->at(t) : 1.0) * value, s.v[n]));
-  }
+  Vec3 at(double t) const { return (factor ? factor->at(t) : 1.0) * value; }
+  void impose(State& s, NodeId n, const Vec3& v) { reaction.set_velocity(s, n, prescribed(v, s.v[n])); }
 };
 
 }  // namespace bw::csd

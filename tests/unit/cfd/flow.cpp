@@ -74,25 +74,12 @@ pressure = 101325
 velocity = [100, 0, 0]
 )");
   f.steps(200);
-  for (int b : f.all())
-    for (int c = 0; c < f.m.forest.shape().cells(); ++c) {
-      double U[Cons::count], W[Prim::stored];
-      for (int q = 0; q < Cons::count; ++q) U[q] = f.m.state.block(b, q)[c];
-      std::visit([&](const auto& pair) { pair.to_primitive(U, W, Floors{}); }, f.m.setup.medium.mixture);
-      EXPECT_NEAR(W[Prim::p] / 101325, 1, 1e-11);
-      EXPECT_NEAR(W[Prim::v] / 100, 1, 1e-11);
-    }
+  const Departure worst = departure(f, 100, 100);
+  EXPECT_LT(worst.p, 1e-11);
+  EXPECT_LT(worst.v, 1e-11);
 }
 
-const std::string charge = grid("[96, 24, 24]", "[1.2, 0.3, 0.3]") + air_and_tnt + R"([[fluid.region]]
-shape = {kind = "sphere", centre = [0.15, 0.15, 0.15], radius = 0.06}
-material = "TNT"
-unburnt = true
-pressure = 101325
-[[fluid.burn]]
-material = "TNT"
-points = [[0.15, 0.15, 0.15]]
-)";
+const std::string charge = grid("[96, 24, 24]", "[1.2, 0.3, 0.3]") + lit_charge("[0.15, 0.15, 0.15]", 0.06);
 
 TEST(Equal, AnyNumberOfThreads) { expect_equal_on_threads(charge, 12); }
 
@@ -123,22 +110,8 @@ TEST(Detonation, UnburntExplosiveStaysAtRest) {
   EXPECT_LT(worst, 1e-9);
 }
 
-void expect_wrong(const std::string& text, const std::string& word) {
-  try {
-    Flow f(text);
-    FAIL() << "accepted: " << text;
-  } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find(".toml:"), std::string::npos) << e.what();
-  }
-}
-
 TEST(WrongInput, IsNamed) {
   const std::string box = grid("[8, 8, 8]", "[1, 1, 1]");
-  const auto with = [&](std::string text, const std::string& old, const std::string& now) {
-    text.replace(text.find(old), old.size(), now);
-    return text;
-  };
   expect_wrong(with(box + air_and_tnt, "density = 1.225", "density = -1"), "density");
   expect_wrong(with(box + air_and_tnt, "material = \"air\"", "material = \"argon\""), "argon");
   expect_wrong(with(box + air_and_tnt, "library = \"air\"", "library = \"soap\""), "soap");

@@ -53,15 +53,7 @@ TEST(Overlap, OneBoxAgainstCounting) {
   EXPECT_NEAR(rectangle_in_disc(a, b, 1.0), sum, 1e-5);
 }
 
-const std::string charge = air_and_tnt + R"([[fluid.region]]
-shape = {kind = "sphere", centre = [0, 0, 0], radius = 0.05}
-material = "TNT"
-unburnt = true
-pressure = 101325
-[[fluid.burn]]
-material = "TNT"
-points = [[0, 0, 0]]
-)";
+const std::string charge = lit_charge("[0, 0, 0]", 0.05);
 
 /// A charge burnt through and a little more; its profile's file.
 struct Left {
@@ -151,20 +143,7 @@ TEST(StartFrom, CoarserShells) {
 }
 
 TEST(StartFrom, WrongProfilesAreNamed) {
-  const auto expect_wrong = [](const std::string& text, const std::string& word) {
-    try {
-      Flow f(text);
-      FAIL() << "accepted: " << text;
-    } catch (const InputError& e) {
-      EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
-      EXPECT_NE(std::string(e.what()).find(".toml:"), std::string::npos) << e.what();
-    }
-  };
   const std::string box = grid("[16, 16, 16]", "[0.4, 0.4, 0.4]");
-  const auto with = [](std::string text, const std::string& old, const std::string& now) {
-    text.replace(text.find(old), old.size(), now);
-    return text;
-  };
   const Left left("spherical");
   expect_wrong(box + air_and_tnt + "[fluid.start_from]\nfile = \"nowhere.h5\"\n", "nowhere.h5");
   expect_wrong(box + air_and_tnt + left.table("centre = [0.2, 0.2, 0.39]\n"), "z_upper");

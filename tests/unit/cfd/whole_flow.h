@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole flow from a case's text, for tests.
 #pragma once
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "cfd/books.h"
@@ -72,6 +74,22 @@ inline void expect_equal_on_threads(const std::string& text, int steps) {
   EXPECT_EQ(one.bits(), two.bits());
   EXPECT_EQ(one.sums().U[Cons::rhoE], two.sums().U[Cons::rhoE]);
 }
+/// Largest departures from 1 atm, and from the velocity v (or from rest) in units of `scale` [m/s].
+struct Departure {
+  double p = 0, v = 0;
+};
+inline Departure departure(const Flow& f, double v, double scale) {
+  Departure worst;
+  for (int b : f.all())
+    for (int c = 0; c < f.m.forest.shape().cells(); ++c) {
+      double U[Cons::count], W[Prim::stored];
+      for (int q = 0; q < Cons::count; ++q) U[q] = f.m.state.block(b, q)[c];
+      std::visit([&](const auto& pair) { pair.to_primitive(U, W, Floors{}); }, f.m.setup.medium.mixture);
+      worst.p = std::max(worst.p, std::abs(W[Prim::p] / 101325 - 1));
+      worst.v = std::max(worst.v, std::abs(W[Prim::v] - v) / scale);
+    }
+  return worst;
+}
 /// Blocks at rest are passed over, and the bits are the same.
 inline void expect_rest_is_skipped(const std::string& text, int steps) {
   Flow skip(text, true), all(text, false);
@@ -80,7 +98,23 @@ inline void expect_rest_is_skipped(const std::string& text, int steps) {
   EXPECT_LT(skip.books.booked(skip.m).updates, all.books.booked(all.m).updates);
 }
 
-inline const std::string air_flow = R"([[fluid.material]]
+/// The case is refused, with a message that has `word` and the place in the file.
+inline void expect_wrong(const std::string& text, const std::string& word) {
+  try {
+    Flow f(text);
+    FAIL() << "accepted: " << text;
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(".toml:"), std::string::npos) << e.what();
+  }
+}
+/// The text with its first `old` replaced.
+inline std::string with(std::string text, const std::string& old, const std::string& now) {
+  text.replace(text.find(old), old.size(), now);
+  return text;
+}
+
+inline const std::string still_air = R"([[fluid.material]]
 name = "air"
 library = "air"
 [[fluid.region]]
@@ -88,21 +122,24 @@ shape = {kind = "everywhere"}
 material = "air"
 density = 1.225
 pressure = 101325
-velocity = [100, 50, 20]
 )";
+inline const std::string air_flow = still_air + "velocity = [100, 50, 20]\n";
 inline const std::string air_and_tnt = R"(
 [[fluid.material]]
 name = "TNT"
 library = "TNT"
-[[fluid.material]]
-name = "air"
-library = "air"
-[[fluid.region]]
-shape = {kind = "everywhere"}
-material = "air"
-density = 1.225
-pressure = 101325
-)";
+)" + still_air;
+/// A ball of TNT's products, or of the explosive itself: `state` has the keys of its density and velocity; 1 atm.
+inline std::string tnt_ball(const std::string& centre, double radius, const std::string& state) {
+  return fmt::format("[[fluid.region]]\nshape = {{kind = \"sphere\", centre = {}, radius = {}}}\nmaterial = \"TNT\"\n",
+                     centre, radius) +
+         "pressure = 101325\n" + state;
+}
+/// A ball of TNT in air, lit at its centre.
+inline std::string lit_charge(const std::string& centre, double radius) {
+  return air_and_tnt + tnt_ball(centre, radius, "unburnt = true\n") + "[[fluid.burn]]\nmaterial = \"TNT\"\npoints = [" +
+         centre + "]\n";
+}
 inline std::string grid(const std::string& cells, const std::string& upper, const std::string& boundary = "") {
   return "[fluid]\nlower = [0, 0, 0]\nupper = " + upper + "\ncells = " + cells + "\nboundary = {" + boundary + "}\n";
 }
