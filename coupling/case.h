@@ -15,6 +15,7 @@ struct CouplingCase {
   double reference_pressure = 101325;  ///< Pa; absolute pressure that the solid feels as none
   double window_max = 0;               ///< s; 0: the fluid's time step alone decides
   double added_mass = 0.2;             ///< longest window in (areal mass) / (fluid's impedance) of a face
+  std::string radiation = "auto";      ///< faces feel rho c (v - announced v) inside a window
   double silence_limit = 600;          ///< s
   double join_limit = 120;             ///< s
 
@@ -32,6 +33,11 @@ struct CouplingCase {
                "longest window as a multiple of (mass per area)/(rho c of the fluid) of the lightest wet face: frozen "
                "loads are unstable "
                "beyond 0.5, half of it for chips wet on both sides; 0 = no limit");
+    k.choice(
+        "radiation", radiation, {"auto", "always", "never"},
+        "inside a window a wet face feels rho c times the difference between its velocity and the announced one, as "
+        "sound leaves a wall at once: without it, vibrations of a light solid as fast as the windows grow. auto: under "
+        "fluid_first, which gives the impulse back in the next window; never: loads are constant over the window");
     k.optional("silence_limit", silence_limit, dim::time,
                "a program that hears nothing from the other for so long ends both");
     k.optional("join_limit", join_limit, dim::time, "longest wait for the other program at the start");
@@ -41,6 +47,7 @@ struct CouplingCase {
     k.expect(silence_limit > 0, "silence_limit", "a time > 0");
     k.expect(join_limit > 0, "join_limit", "a time > 0");
   }
+  bool radiates() const { return radiation == "always" || (radiation == "auto" && kind() == Scheme::fluid_first); }
   Scheme kind() const {
     if (scheme.empty()) return Scheme::none;
     return scheme == "box1" ? Scheme::box1 : Scheme::fluid_first;

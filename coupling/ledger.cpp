@@ -48,7 +48,9 @@ SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_wind
 
 void Ledger::open(const Window& window, const WetSurface& surface, const Loads& loads) {
   const double work_fluid_sum = row_.work_fluid_sum, work_solid_sum = row_.work_solid_sum;
+  const Vec3 advance = row_.advance;
   row_ = LedgerRow{};  // the sums go on
+  row_.advance = advance;
   row_.work_fluid_sum = work_fluid_sum;
   row_.work_solid_sum = work_solid_sum;
   row_.window = window.index;

@@ -32,6 +32,7 @@ struct LedgerRow {
   double t0 = 0, t1 = 0;
   SolidTotals solid;
   FluidTotals fluid;
+  Vec3 advance;              ///< N s since the start, that the solid has got beyond the fluid's, to be given back
   Vec3 impulse_defect;       ///< N s, solid - (fluid + p_ref A dt)
   Vec3 moment_defect;        ///< N m s, likewise
   double impulse_scale = 0;  ///< N s, sum |P A| dt
@@ -51,6 +52,11 @@ class Ledger {
   /// The window's surface (x at t0; v as announced to the fluid) and the fluid's answer.
   void open(const Window& window, const WetSurface& surface, const Loads& loads);
   void add(const SolidTotals& substep) { row_.solid += substep; }
+  /// Impulse [N s] and work [J] of forces inside the window that are no part of the fluid's answer.
+  void add_advance(const Vec3& impulse, double work) {
+    row_.advance += impulse;
+    row_.solid.work += work;
+  }
   /// The window ends; nodes of the opened surface are at x_end [n_nodes] (empty: unknown, then no gap). The text is a
   /// failure (impulse not conserved), to be given to Channel::fail(exit_ledger).
   std::optional<std::string> close(std::span<const Vec3> x_end = {});

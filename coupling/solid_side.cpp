@@ -94,6 +94,7 @@ const Loads& SolidSide::receive() {
   channel_.share(loads_.p);
   channel_.share(loads_.traction);
   channel_.share(loads_.impedance);
+  if (!loads_.impedance.empty()) channel_.share(sent_.v);
   loads_.t1 = load.t1;
   loads_.stop = load.flags & load_stop;
   loads_.totals = totals_of(load);

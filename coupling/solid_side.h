@@ -40,8 +40,13 @@ class SolidSide {
   void send(Window window, const WetSurface& surface, std::span<const double> areal_mass = {});
   /// Checked: t0 < t1 <= t1_max, one finite P per face. Valid until the next send.
   const Loads& receive();
+  /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after receive, if the
+  /// fluid told impedances.
+  const std::vector<Vec3>& announced() const { return sent_.v; }
   /// One substep's totals (leader's count; call on any).
   void add(const SolidTotals& totals) { ledger_.add(totals); }
+  /// What the solid got beyond these in the window [N s, J]: an advance on what the fluid will give.
+  void add_advance(const Vec3& impulse, double work) { ledger_.add_advance(impulse, work); }
   /// Closes the window's books; x_end = positions of the nodes as sent (leader; may be empty). Ends the run if impulse
   /// was lost.
   void end_window(std::span<const Vec3> x_end = {});

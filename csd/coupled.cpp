@@ -6,6 +6,7 @@
 
 #include "common/app/version.h"
 #include "common/io/file.h"
+#include "common/math/sum.h"
 #include "coupling/loads.h"
 #include "csd/step.h"
 
@@ -36,6 +37,11 @@ std::vector<double> areal_mass(const Model& m, const Surface& surface) {
   return result;
 }
 
+/// The step that a run takes, over the stable one.
+double step_share(const TimeStepCase& how, double dt_stable) {
+  return how.fixed > 0 ? how.fixed / dt_stable : how.safety;
+}
+
 }  // namespace
 
 Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m)
@@ -62,18 +68,58 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   const coupling::Loads& loads = side_->receive();
   const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), on_faces);
+  const std::vector<Vec3> back = renew_radiation(m, loads, dt_stable, loads.t1 - m.state.t);
+  back_ = back.empty() ? std::vector<Vec3>{} : coupling::nodal_loads(surface_.wet(), back);
   std::vector<std::pair<Face, Vec3>> forces;
-  for (size_t i = 0; i < on_faces.size(); ++i) forces.emplace_back(surface_.faces()[i], on_faces[i]);
+  for (size_t i = 0; i < on_faces.size(); ++i)
+    forces.emplace_back(surface_.faces()[i], back.empty() ? on_faces[i] : on_faces[i] + back[i]);
   change_given_forces(m, std::move(forces));
   return loads.t1;
+}
+
+std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& loads, double dt_stable, double dt) {
+  auto& radiation = m.physics.loads->radiation;
+  if (!case_.coupling.radiates() || loads.impedance.empty()) {
+    radiation.reset();
+    return {};
+  }
+  const size_t n = surface_.faces().size();
+  std::vector<Vec3> back(n);
+  if (!radiation) radiation.emplace();
+  // faces keep their places; under box1 the fluid's walls jump to the solid, and nothing is repaid
+  if (case_.coupling.kind() == coupling::Scheme::fluid_first)
+    for (size_t i = 0; i < radiation->impulses().size(); ++i) back[i] = radiation->impulses()[i] / -dt;
+  std::vector<RadiatingFace> faces(n);
+  for (size_t i = 0; i < n; ++i) {
+    const auto& quad = surface_.wet().quads[i];
+    const Vec3 area = coupling::area_vector(surface_.wet().x, quad);
+    const double size = norm(area);
+    if (!(size > 0)) continue;
+    faces[i] = {surface_.faces()[i], area / size, loads.impedance[i] * size, 0};
+    faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);
+  }
+  const double share = step_share(case_.solid.time_step, dt_stable);
+  radiation->begin(m.mesh, m.state, std::move(faces), 1.8 * std::fmax(0, 1 - share * share));
+  return back;
 }
 
 void Coupled::before_step(const Model& m) { x_before_ = positions(m); }
 
 void Coupled::after_step(const Model& m, double dt) {
-  side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, positions(m), dt));
+  const std::vector<Vec3> now = positions(m);
+  side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));
+  if (back_.empty()) return;
+  const coupling::SolidTotals back = coupling::substep_totals(back_, surface_.wet().x, x_before_, now, dt);
+  side_->add_advance(back.impulse, back.work);
 }
 
-void Coupled::end_window(const Model& m) { side_->end_window(positions(m)); }
+void Coupled::end_window(const Model& m) {
+  if (const auto& radiation = m.physics.loads->radiation) {
+    ExactSum3 impulse;
+    for (const Vec3& one : radiation->impulses()) impulse += one;
+    side_->add_advance(impulse.value(), radiation->work());
+  }
+  side_->end_window(positions(m));
+}
 
 }  // namespace bw::csd

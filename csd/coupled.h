@@ -28,11 +28,15 @@ class Coupled {
 
  private:
   std::vector<Vec3> positions(const Model& model) const;
+  /// Forces on faces [N] that give back the impulses that radiation advanced in the window before, and radiation for
+  /// this one, dt long.
+  std::vector<Vec3> renew_radiation(Model& model, const coupling::Loads& loads, double dt_stable, double dt);
 
   const Case& case_;
   Surface surface_;
   std::vector<NodeId> nodes_;           ///< of the surface as sent
   std::vector<Vec3> force_, x_before_;  ///< per node of it: N in this window, m
+  std::vector<Vec3> back_;              ///< per node: N in this window, that give back what radiation advanced
   std::unique_ptr<coupling::SolidSide> side_;
 };
 

@@ -54,7 +54,9 @@ void after_kick(Model& m, double dt) {
 }
 /// Half a step's work of the loads, at the step's velocities.
 void book_half_work(Model& m, double dt) {
-  if (m.physics.loads) m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);
+  if (!m.physics.loads) return;
+  m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);
+  m.physics.loads->book(m.mesh, m.state, 0.5 * dt);
 }
 
 /// The energy that moves with the length of the steps: the product form v^(n-1/2) v^(n+1/2) is conserved by steps of

@@ -139,6 +139,7 @@ coupling::Loads Walls::loads() {
       const double first = first_aperture_.emplace(surface_.face_id[f], std::max(aperture, 0.0)).first->second;
       const double open = aperture < Lips::apart ? std::clamp(2 * (aperture - first) / h, 0.0, 1.0) : 1.0;
       r.p[f] = p_ref_ + open * (full - p_ref_);
+      r.impedance[f] *= open;
       lip_force_ += (r.p[f] - full) * area;
     }
   }

@@ -50,6 +50,7 @@ void Loads::add(const Mesh& mesh, double t, State& s) {
   for_loaded([&](NodeId n) { f_[n] = {}; });
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
   if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
+  if (radiation) radiation->add(mesh, s, f_);
   for_loaded([&](NodeId n) {
     if (s.local.is_due(n)) s.f[n] += f_[n];
   });

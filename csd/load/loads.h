@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // All loads of a case as nodal forces, and the work they do.
 #pragma once
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "csd/load/list.h"
+#include "csd/load/radiation.h"
 #include "csd/state.h"
 
 namespace bw::csd {
@@ -21,11 +23,17 @@ class Loads {
   void add(const Mesh& mesh, double t, State& s);
   /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are
   /// replaced. The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new
-  /// nodes.
+  /// nodes. radiation, where begun, acts likewise.
   void replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s);
+  /// To be begun before replace_given.
+  std::optional<Radiation> radiation;
   /// W: power of the forces of the last add() at the velocities s.v; of nodes that are due, times their steps over the
   /// shortest.
   double power(const State& s) const;
+  /// The forces of the last add() act for the time h (power's meaning of due nodes).
+  void book(const Mesh& mesh, const State& s, double h) {
+    if (radiation) radiation->book(mesh, s, h);
+  }
   /// Nodes were split; forces() of parent and children are to be shared by mass then.
   void append_copies(std::span<const NodeSplit> splits);
   /// Nodal forces of the last add() [N].
@@ -38,6 +46,7 @@ class Loads {
   template <class A>
   void keep(A& a) {
     a.list("force", f_), a.list("nodes", nodes_), a.list("loaded", is_loaded_);
+    if (radiation) radiation->keep(a);
   }
 
  private:

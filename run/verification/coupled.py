@@ -50,14 +50,79 @@ def c1():
             # the piston's momentum: its faces ring a little
             measured_u, measured_x = table["momentum x"][-1] / (1.0 * (h * 1e-3) ** 2), probe(table, "wall", "x")[-1]
             errors[scheme, h] = abs(measured_u / u - 1)
+            if h == 10.0 or scheme == "fluid_first":
+                yield close(f"{scheme}, {h:g} mm: u at 1 ms", measured_u, u, 0.005, result.seconds)
             if h == 10.0:
-                yield close(f"{scheme}, 10 mm: u at 1 ms", measured_u, u, 0.005, result.seconds)
                 yield close(f"{scheme}, 10 mm: x at 1 ms", measured_x, x, 0.005)
                 ledger = fields.history(result.directory / "coupling_history.csv")
                 yield at_most(f"{scheme}: impulse defect of any window", np.abs(ledger["impulse_defect"]).max(), 1e-12)
                 yield close(f"{scheme}: kinetic energy against the gas's work", 0.5 * 1.0 * (h * 1e-3) ** 2 * measured_u ** 2,
                             float(np.sum(ledger["fluid_work"])), 0.01 if scheme == "fluid_first" else 0.05)
-        yield at_least(f"{scheme}: order of u, 20 to 5 mm (reported)", np.log(errors[scheme, 20.0] / errors[scheme, 5.0]) / np.log(4), 0.0)
+    # under fluid_first no error in time is left that could be seen beside the gas's in space and the slab's elasticity
+    yield at_least("box1: order of u, 20 to 5 mm (reported)", np.log(errors["box1", 20.0] / errors["box1", 5.0]) / np.log(4), 0.0)
+
+
+def closed_column(scheme, mass, speed, end, length=1000.0, young=None):
+    """C2 as a case: C1's slab before a closed column of air at rest [mm], in cells of 20 mm, with a velocity to begin with."""
+    text = piston(scheme, h=20.0, end=end, mass=mass, left="wall", length=length)
+    if young:
+        text = text.replace(f"young_modulus = {1e7 * mass!r}", f"young_modulus = {young!r}")
+    text = text.replace("poisson_ratio = 0.0}\n", f"poisson_ratio = 0.0}}\nvelocity = [{speed!r}, 0.0, 0.0]\n", 1)
+    text = text.replace("reference_pressure = 0.0", "reference_pressure = 101325.0")
+    vacuum = text.index("[[fluid.region]]\nshape = {kind = \"half_space\"")
+    return text[:vacuum] + text[text.index("[coupling]"):] + ("radiation = \"always\"\n" if scheme == "box1" else "")
+
+
+def oscillation(t, x, known):
+    """Hz and amplitudes [start, end] of the first mode: least squares of all known modes, the first one's frequency free; then on the first and
+    the last third."""
+    def fit(part, frequencies):
+        columns = [np.ones(part.sum())] + [f(2 * np.pi * value * t[part]) for value in frequencies for f in (np.cos, np.sin)]
+        matrix = np.stack(columns, axis=1)
+        coefficients, *_ = np.linalg.lstsq(matrix, x[part], rcond=None)
+        return np.hypot(coefficients[1], coefficients[2]), np.linalg.norm(matrix @ coefficients - x[part])
+    everything = np.ones(len(t), bool)
+    low, high = 0.97 * known[0], 1.03 * known[0]
+    for _ in range(40):  # golden section
+        a, b = high - 0.618 * (high - low), low + 0.618 * (high - low)
+        low, high = (low, b) if fit(everything, [a] + known[1:])[1] < fit(everything, [b] + known[1:])[1] else (a, high)
+    frequency = 0.5 * (low + high)
+    third = t[-1] / 3
+    return frequency, [fit(part, [frequency] + known[1:])[0] for part in (t <= third, t >= 2 * third)]
+
+
+@case("C2")
+def c2():
+    """Piston before a closed column of air, free: frequency and growth of the amplitude over the periods; also a piston lighter than the gas"""
+    for mass, periods, schemes in ((0.8, 20, ("fluid_first", "box1")), (0.1, 20, ("fluid_first",)), (10.0, 6, ("fluid_first",))):
+        modes = reference.gas_column_modes(mass, 0.0)
+        for scheme in schemes:
+            result = run(f"C2_{scheme}_{mass:g}", closed_column(scheme, mass, 2 * np.pi * modes[0] * 1e-4, periods / modes[0]))
+            table = fields.history(result.directory / "solid_history.csv")
+            frequency, (start, end) = oscillation(table["t"], probe(table, "wall", "x"), modes)
+            yield close(f"{scheme}, {mass:g} kg/m^2: frequency [Hz]", frequency, modes[0], 0.01, result.seconds)
+            yield at_most(f"{scheme}, {mass:g} kg/m^2: growth of the amplitude, last third of {periods} periods over the first", max(0.0, end / start - 1), 0.02)
+            yield at_least(f"{scheme}, {mass:g} kg/m^2: that amplitude over the first (reported)", end / start, 0.0)
+
+
+@case("C2f")
+def c2_family():
+    """C2 with slabs whose thickness mode is aliased by the windows: masses, stiffnesses, lengths of the column and both schemes; energy of the solid, \
+last third over first"""
+    window = 43e-6  # s, of cells of 20 mm
+    for scheme in ("fluid_first", "box1"):
+        worst, seconds = 0.0, 0.0
+        for mass in (0.1, 0.8, 10.0):
+            for ratio in (0.45, 1.1, 2.0, 3.1):  # windows in a period of the slab
+                for length in (300.0, 1000.0):
+                    first = reference.gas_column_modes(mass, 0.0, 1, length * 1e-3)[0]
+                    young = (2 * np.pi / (ratio * window)) ** 2 * mass * 10e-3 / 4
+                    result = run(f"C2f_{scheme}_{mass:g}_{ratio:g}_{length:g}", closed_column(scheme, mass, 0.03, 6 / first if mass < 10 else 3 / first, length, young))
+                    table = fields.history(result.directory / "solid_history.csv")
+                    energy, t = table["kinetic_energy"] + table["elastic_energy"], table["t"]
+                    worst = max(worst, energy[t >= 2 * t[-1] / 3].max() / energy[t <= t[-1] / 3].max())
+                    seconds += result.seconds
+        yield at_most(f"{scheme}, 24 slabs: worst ratio", worst, 1.04, seconds)
 
 
 @case("C11", quick=True)
@@ -73,7 +138,8 @@ def c11():
         # the walls at the ends: p0 on the left, which no wave has reached; 1 Pa on the right
         yield close(f"{h:g} mm: fluid's momentum change + p0 A t at the closed end, against -impulse", 101325.0 * area * t - momentum, impulse,
                     band, result.seconds)
-        yield close(f"{h:g} mm: solid's momentum against the impulse", solid["momentum x"][-1], impulse, 1e-9)
+        yield close(f"{h:g} mm: solid's momentum against the impulse and what it has in advance", solid["momentum x"][-1],
+                    impulse + ledger["advance_x"][-1], 1e-9)
         yield close(f"{h:g} mm: work of the fluid against the solid's", float(np.sum(ledger["fluid_work"])), float(np.sum(ledger["solid_work"])), 0.01)
 
 

@@ -219,6 +219,26 @@ SHOCK_TUBES = {
 
 
 # --- pistons ---------------------------------------------------------------------------------------------------------------------------
+def gas_column_modes(m, k, count=4, length=1.0, rho=1.225, p=101325.0, gamma=1.4):
+    """Hz: a piston of m [kg/m^2] on a spring k [N/m^3] before a closed column of gas: (k - m w^2) sin(wL/c) + rho c w cos(wL/c) = 0, linear
+    acoustics (VALIDATION C2)."""
+    c = math.sqrt(gamma * p / rho)
+
+    def value(w):
+        return (k - m * w * w) * math.sin(w * length / c) + rho * c * w * math.cos(w * length / c)
+    modes, step = [], 1e-3 * c / length
+    w = step
+    while len(modes) < count:
+        if value(w) * value(w + step) <= 0:
+            low, high = w, w + step
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if value(low) * value(middle) > 0 else (low, middle)
+            modes.append(0.5 * (low + high) / (2 * math.pi))
+        w += step
+    return modes
+
+
 def free_piston(t, mass, rho0=1.225, p0=101325.0, gamma=1.4):
     """C1: a piston of `mass` per area, gas on one side, vacuum on the other: u, x, p at time t (exact simple wave)."""
     c0 = math.sqrt(gamma * p0 / rho0)

@@ -3,7 +3,7 @@
 // the exact simple wave
 //   p = p0 (c/c0)^(2 gamma/(gamma - 1)),   c = c0 - (gamma - 1)/2 u,   u: velocity of the wall along +x,
 // so that the real csd can be held against the exact piston (VALIDATION C1).
-//   mpirun -n 1 csd case.toml : -n 1 coupled_simple_wave <scheme> <window, s>
+//   mpirun -n 1 csd case.toml : -n 1 coupled_simple_wave <scheme> <window, s> [reference pressure, Pa]
 #include <cmath>
 
 #include "common/app/guarded.h"
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     const double c0 = std::sqrt(gas_gamma * p0 / rho0);
     CouplingCase cs;
     cs.scheme = argv[1];
-    cs.reference_pressure = 0;
+    cs.reference_pressure = argc > 3 ? std::stod(argv[3]) : 0;
     const double dt_window = std::stod(argv[2]);
     const Joined joined = join(session, Role::fluid, cs);
     FluidSide side(*joined.channel, cs,

@@ -46,12 +46,15 @@ def table(name):
     return [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
 
 
-def start(out, scheme, window, change=("", "")):
-    """The finished pair; `change`: text of the case that is replaced."""
+def start(out, scheme, window, *changes, pressure=0):
+    """The finished pair; `changes`: texts of the case that are replaced; pressure: the reference."""
     os.makedirs(out, exist_ok=True)
+    text = CASE.format(out=out, scheme=scheme, rollers=ROLLERS)
+    for change in changes:
+        text = text.replace(*change)
     with open(f"{out}/case.toml", "w") as file:
-        file.write(CASE.format(out=out, scheme=scheme, rollers=ROLLERS).replace(*change))
-    command = f"mpirun -n 1 {FOLDER}/csd {out}/case.toml : -n 1 {FOLDER}/coupled_simple_wave {scheme} {window}"
+        file.write(text)
+    command = f"mpirun -n 1 {FOLDER}/csd {out}/case.toml : -n 1 {FOLDER}/coupled_simple_wave {scheme} {window} {pressure}"
     return subprocess.run(command.split(), env=ENVIRONMENT, capture_output=True, text=True, timeout=60)
 
 
@@ -66,8 +69,9 @@ def run(scheme, window):
         sys.exit(f"{scheme} {window}: the ledger does not close")
     got = sum(row["impulse_x [N s]"] for row in ledger)
     momentum = solid[-1]["momentum x [kg m/s]"]
-    if abs(got - momentum) > 1e-9 * got:
-        sys.exit(f"{scheme} {window}: impulse received {got}, momentum {momentum}")
+    advance = ledger[-1]["advance_x [N s]"]  # of the last window, not given back any more
+    if abs(got + advance - momentum) > 1e-9 * got:
+        sys.exit(f"{scheme} {window}: impulse received {got}, in advance {advance}, momentum {momentum}")
     u = momentum / (MASS_PER_AREA * AREA)
     return u / exact_velocity(1e-3) - 1
 
@@ -80,6 +84,21 @@ for scheme, order_wanted, coarsest_wanted in ("fluid_first", None, 1e-4), ("box1
     bad = abs(errors[0]) > coarsest_wanted or (order_wanted is not None and order < order_wanted)
     failed |= bad
     print(f"{'FAILED' if bad else 'ok':6} {scheme:12} errors of u(1 ms): {', '.join(f'{e:+.2e}' for e in errors)}; order {order:.2f}")
+# slabs of 0.1 kg/m^2 before gas at rest, so soft that their thickness mode (period: a multiple of the window) is aliased by windows of 20 us: after
+# 10 ms, 40 times m/(rho c), nothing moves any more
+SPEED = 0.1
+for scheme, radiation in ("fluid_first", "auto"), ("box1", "always"):
+    for ratio in 0.45, 1.8, 2.0, 2.2:
+        mass, out = 0.1, f"{OUT}/soft_{scheme}_{ratio}"
+        young = (2 * math.pi / (ratio * 2e-5)) ** 2 * mass * 10e-3 / 4
+        done = start(out, scheme, 2e-5, ("density = 100, young_modulus = \"1 GPa\", poisson_ratio = 0.0}",
+                                         f"density = {mass / 10e-3!r}, young_modulus = {young!r}, poisson_ratio = 0.0}}\nvelocity = [{SPEED}, 0, 0]"),
+                     ('end = "1 ms"', 'end = "10 ms"'), ("reference_pressure = 0", f'reference_pressure = {P0}\nradiation = "{radiation}"'), pressure=P0)
+        rows = table(f"{out}/solid_history.csv") if done.returncode == 0 else []
+        energy = [row["kinetic_energy [J]"] + row["elastic_energy [J]"] for row in rows]
+        bad = not energy or not energy[-1] < 1e-6 * energy[0]
+        failed |= bad
+        print(f"{'FAILED' if bad else 'ok':6} {scheme:12} soft slab, {ratio} windows a period: energy {energy[-1] / energy[0] if energy else math.nan:.1e} of the first")
 # both programs end with csd's reason and code
 for name, change, code, words in (
         ("wrong_key", ("neo_hooke", "neo_hook"), 2, ["case.toml:9", "[gas] error: ended from outside"]),

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the gas at a wet face does inside a window. A fluid that is asked once a window answers the velocity that it was
+// told; a wall whose own vibration is as fast as the windows then gets its pressure at the wrong time, and may gain
+// energy from it. Sound leaves a wall at once: a face that moves differently from what was told feels
+//   -rho c (v - w) . n                                                                    [Pa, on the solid along n]
+// on top, as in linear acoustics, whatever w was. The impulse of it is given back in the next window, where the fluid
+// repays the gap: over the run the solid gets what the fluid gave.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "csd/mesh/mesh.h"
+#include "csd/state.h"
+
+namespace bw::csd {
+
+/// A wet face in one window.
+struct RadiatingFace {
+  Face face;
+  Vec3 n;                ///< unit, into the fluid
+  double impedance = 0;  ///< rho c times area [kg/s]; 0: none
+  double told = 0;       ///< m/s along n: the mean of its nodes that the fluid was told
+};
+
+class Radiation {
+ public:
+  /// A window begins: its faces, and the largest h c/m of a node (h: its longest step; c: a quarter of the impedances
+  /// around it). Beyond it impedances are taken smaller, so that the step stays stable: with forces by the last
+  /// half-step's velocity that needs (h/h_stable)^2 + h c/(2 m) < 1.
+  void begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest);
+  /// Forces at s.v, added to f.
+  void add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f);
+  /// The last add() acts for the time h, at s.v, on nodes that are due.
+  void book(const Mesh& mesh, const State& s, double h);
+  /// Since begin, of each of its faces [N s].
+  const std::vector<Vec3>& impulses() const { return impulse_; }
+  /// J, likewise.
+  double work() const { return work_; }
+
+  /// In a checkpoint, between two windows.
+  template <class A>
+  void keep(A& a) {
+    a.list("impulse", impulse_);
+  }
+
+ private:
+  std::vector<RadiatingFace> faces_;  // with an impedance
+  std::vector<size_t> place_;         // of them, in begin's list
+  std::vector<double> force_;         // N along n, of them
+  std::vector<Vec3> impulse_;
+  double work_ = 0;
+};
+
+}  // namespace bw::csd
