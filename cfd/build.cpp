@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cfd/adapt.h"
+#include "cfd/afterburn.h"
 #include "cfd/embed/cavity.h"
 #include "cfd/eos/library.h"
 #include "cfd/source/detonation.h"
@@ -112,6 +113,16 @@ std::optional<Burn> make_burn(const Case& cs, const Forest& forest) {
   return burn;
 }
 
+Afterburn make_afterburn(const Case& cs) {
+  Afterburn after = *cs.fluid.afterburn;
+  const MaterialCase& m = cs.fluid.material[size_t(cs.fluid.material_index(cs.fluid.afterburn->material, cs.fluid.afterburn->place))];
+  const Jwl& jwl = std::get<Jwl>(*m.eos);
+  if (after.energy == 0) after.energy = *heat_of_combustion(m.library) - jwl.E0 / jwl.rho0;
+  if (!(after.energy > 0)) throw InputError(fmt::format("{}: \"{}\" has no energy left to burn on with", cs.fluid.afterburn->place, m.name));
+  say("{}: its products burn on with {:.4g} MJ/kg beside {:.4g} MJ/kg of detonation", m.name, 1e-6 * after.energy, 1e-6 * jwl.E0 / jwl.rho0);
+  return after;
+}
+
 GhostRules ghost_rules(const Boundary& b) {
   GhostRules rules;
   for (size_t i = 0; i < 6; ++i)
@@ -212,6 +223,11 @@ Model::Model(const Comm& comm, const Case& cs)
   setup.medium = make_medium(cs);
   setup.boundary = make_boundary(setup.medium, cs);
   setup.burn = make_burn(cs, forest);
+  if (cs.fluid.afterburn) {
+    setup.afterburn = make_afterburn(cs);
+    afterburn_follows = !cs.fluid.afterburn->own_begin;
+    afterburn_place = cs.fluid.afterburn->place;
+  }
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
   if (cs.fluid.amr) refine = cs.fluid.amr->rules;
   if (cs.fluid.start_from) start = std::make_shared<Start>(begin_from(*cs.fluid.start_from, *this));
@@ -329,6 +345,7 @@ void paint(Model& m, const Case& cs) {
   }
   if (cs.fluid.perturbation > 0) perturb(m, cs.fluid.perturbation);
   if (m.setup.burn) light(m, cs);
+  begin_afterburn(m);
 }
 
 }  // namespace bw::cfd

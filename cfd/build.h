@@ -26,6 +26,8 @@ struct Model {
   std::optional<Walls> walls;    ///< embedded surface, if there is one
   std::optional<Bodies> bodies;  ///< stand-alone: what moves it
   std::shared_ptr<const Start> start;  ///< another run's end that this one begins with (cfd/start/paint.h); nullptr: none
+  bool afterburn_follows = false;  ///< the products burn on when the programmed burn is over
+  std::string afterburn_place;     ///< in the case file
   double explosive_mass = 0;     ///< kg, at t = 0
   double cavity_mass = 0;        ///< kg: exact volume of the cavities times the density painted into them; 0: none
 };

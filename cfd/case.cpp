@@ -70,6 +70,7 @@ void FluidCase::describe(Keys& k) {
   k.expect(perturbation >= 0 && perturbation < 0.5, "perturbation", "a number from 0 to below 0.5");
   k.tables("inflow", inflow, "states of sides declared inflow, subsonic_inflow or far_field");
   k.tables("burn", burn, "programmed burn of an explosive");
+  k.table("afterburn", afterburn, "products that burn on: further energy, released at the same pace in all of them");
   k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
   k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv; what they measured: fluid_gauges.json");
   k.tables("plane", plane, "slices through time, and maps of peak overpressure and impulse on them");
@@ -81,7 +82,8 @@ void FluidCase::describe(Keys& k) {
   k.table("fields", fields, "restricts field files to a part of the domain; absent: all of it");
   if (!k.is_manual()) check(k);
   // the flow kernels carry stored energy with material 1
-  if (material.size() == 2 && !burn.empty() && material[1].name == burn[0].material) std::swap(material[0], material[1]);
+  const std::string explosive = !burn.empty() ? burn[0].material : afterburn ? afterburn->material : "";
+  if (material.size() == 2 && material[1].name == explosive) std::swap(material[0], material[1]);
 }
 
 void FluidCase::use_radius(Keys& k, Geometry geometry) {
@@ -131,6 +133,16 @@ int FluidCase::material_index(const std::string& name, const std::string& place)
                                fmt::join(names, ", "), name));
 }
 
+void FluidCase::check_afterburn() const {
+  const MaterialCase& m = material[size_t(material_index(afterburn->material, afterburn->place))];
+  if (!std::holds_alternative<Jwl>(*m.eos))
+    throw InputError(fmt::format("{}: expected an explosive (a JWL equation of state), \"{}\" is none", afterburn->place, m.name));
+  if (!burn.empty() && burn[0].material != m.name)
+    throw InputError(fmt::format("{}: expected \"{}\", the material of [[fluid.burn]]", afterburn->place, burn[0].material));
+  if (afterburn->energy == 0 && !heat_of_combustion(m.library))
+    throw InputError(fmt::format("{}: expected fluid.afterburn.energy: the heat of combustion of \"{}\" is not in the library", afterburn->place, m.name));
+}
+
 void FluidCase::check(Keys& k) const {
   if (material.empty() || material.size() > 2) k.fail("material", "one or two [[fluid.material]] tables");
   if (material.size() == 2 && material[0].name == material[1].name) k.fail("material", "two names that differ");
@@ -161,6 +173,7 @@ void FluidCase::check(Keys& k) const {
     if (std::none_of(region.begin(), region.end(), [&](const auto& r) { return r.material == b.material && r.unburnt; }))
       throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
+  if (afterburn) check_afterburn();
   if (grid.geometry != Geometry::planar) check_radial(k);
   if (start_from && !burn.empty()) k.fail("start_from", "no [[fluid.burn]] beside start_from: the profile is burnt, and nothing else burns yet");
   if (start_from && grid.geometry != Geometry::planar && norm(start_from->centre) > 0)

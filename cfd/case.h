@@ -11,6 +11,7 @@
 #include "cfd/medium.h"
 #include "cfd/records_case.h"
 #include "cfd/regions.h"
+#include "cfd/source/afterburn.h"
 #include "cfd/source/light.h"
 #include "cfd/start/case.h"
 #include "common/app/cli.h"
@@ -177,6 +178,40 @@ struct BurnCase {
   }
 };
 
+struct AfterburnCase : Afterburn {
+  std::string material, place;
+  bool own_begin = false;  ///< else it begins when the programmed burn is over
+  template <class K>
+  void describe(K& k) {
+    std::string name = "constant";
+    k.required("material", material, "the explosive: a material with a JWL equation of state");
+    k.choice("kind", name, {"constant", "miller"},
+             "constant: at one rate from begin to end; miller: rate (1 - burnt)^rest_exponent (p/1 Mbar)^pressure_exponent, p the mean over the products");
+    kind = name == "miller" ? Kind::miller : Kind::constant;
+    k.optional("energy", energy, dim::energy_per_mass,
+               "per mass of explosive, on top of its E0; 0: heat of combustion less E0/rho0, for library explosives of one substance (TNT, PETN)");
+    constexpr double never = -1e300;
+    begin = never;
+    k.optional("begin", begin, dim::time, "absent: when the programmed burn is over");
+    own_begin = begin != never;
+    if (!own_begin) begin = 0;
+    k.optional("end", end, dim::time, "of the constant rate");
+    k.optional("rate", rate, dim::frequency, "miller: of the burnt part at 1 Mbar and none burnt");
+    k.optional("rest_exponent", m, dim::none, "miller");
+    k.optional("pressure_exponent", n, dim::none, "miller");
+    k.optional("least_pressure", least_pressure, dim::pressure, "miller: below it nothing burns");
+    k.optional("burnt", share, dim::none, "part burnt at the start, of a run that begins from another's end");
+    k.expect(energy >= 0, "energy", "a positive energy per mass, or 0");
+    k.expect(begin >= 0, "begin", "a time, zero or positive");
+    k.expect(k.is_manual() || kind != Kind::constant || end > begin, "end", "a time after begin");
+    k.expect(k.is_manual() || kind != Kind::miller || rate > 0, "rate", "a positive rate");
+    k.expect(m >= 0, "rest_exponent", "a number, zero or positive");
+    k.expect(n >= 0, "pressure_exponent", "a number, zero or positive");
+    k.expect(share >= 0 && share <= 1, "burnt", "a number from 0 to 1");
+    place = k.where("material");
+  }
+};
+
 struct LineCase {
   std::string name, place;
   Vec3 from, to;
@@ -242,6 +277,7 @@ struct FluidCase {
   std::optional<StartCase> start_from;
   std::vector<InflowCase> inflow;
   std::vector<BurnCase> burn;
+  std::optional<AfterburnCase> afterburn;
   std::vector<BodyCase> body;
   std::vector<GaugeCase> gauge;
   std::vector<LineCase> line;
@@ -259,6 +295,7 @@ struct FluidCase {
   void use_radius(Keys& k, Geometry geometry);
   void check_radial(Keys& k) const;
   void use_levels(Keys& k);
+  void check_afterburn() const;
   void check(Keys& k) const;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cfd/afterburn.h"
 #include "cfd/output.h"
 #include "common/app/log.h"
 #include "common/app/timers.h"
@@ -12,12 +13,12 @@
 namespace bw::cfd {
 namespace {
 
-constexpr int64_t layout = 1;
+constexpr int64_t layout = 2;
 constexpr const char* program = "fluid";
 
 /// Numbers of the whole run, the same on all ranks.
 struct Run {
-  double t = 0, explosive_mass = 0, cavity_mass = 0, burn_over = 0;
+  double t = 0, explosive_mass = 0, cavity_mass = 0, burn_over = 0, afterburnt = 0;
   int64_t step = 0;
 };
 /// Where the ways of a burn around corners are given.
@@ -114,7 +115,8 @@ void write_checkpoint(const Case& cs, const Model& m, const Books& books, Output
                         {program, layout, case_hash(cs.file), m.state.step, m.state.t}, m.forest.comm());
   const Saved run = file.section("run");
   run.number("numbers",
-             Run{m.state.t, m.explosive_mass, m.cavity_mass, m.setup.burn ? m.setup.burn->t_all : 0, m.state.step});
+             Run{m.state.t, m.explosive_mass, m.cavity_mass, m.setup.burn ? m.setup.burn->t_all : 0,
+                 m.setup.afterburn ? m.setup.afterburn->share : 0, m.state.step});
   if (m.setup.burn && !m.setup.burn->ways.empty()) {
     const WayTable& ways = m.setup.burn->ways;
     run.number("way_box", WayBox{ways.lower, ways.h, ways.n, ways.most});
@@ -142,6 +144,8 @@ void restore_model(Model& m, const Restart& from, const coupling::WetSurface* su
     const WayBox box = numbers.number<WayBox>("way_box");
     m.setup.burn->ways = {box.lower, box.h, box.n, numbers.same<double>("ways"), box.most};
   }
+  begin_afterburn(m);
+  if (m.setup.afterburn) m.setup.afterburn->share = run.afterburnt;
   if (m.walls && surface) m.walls->restore(from.file.section("walls"), *surface);
 }
 

@@ -33,6 +33,7 @@ std::vector<History::Column> history_columns(const Case& cs) {
   for (const char* name : {"covered mass", "uncovered mass"}) c.push_back({name, "kg"});
   for (const char* name : {"covered energy", "uncovered energy", "cleaned energy", "floor energy"}) c.push_back({name, "J"});
   for (const char* name : {"cells covered", "cells fresh", "floors", "scaled", "first_order", "repeated_steps", "active_share"}) c.push_back({name, "1"});
+  if (cs.fluid.afterburn) c.push_back({"afterburn energy", "J"}), c.push_back({"afterburnt", "1"});
   return c;
 }
 
@@ -167,6 +168,7 @@ void Output::write_row(const Model& m, const Books& books) {
   for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept[0], swept[1], swept[2], swept[3], b.cleaned[Cons::rhoE], b.floor_energy,
                    swept[4], swept[5], double(b.floors), double(b.scaled_cells), double(b.first_order), double(books.repeated), active_share_})
     row.push_back(v);
+  if (m.setup.afterburn) row.push_back(b.afterburn), row.push_back(m.setup.afterburn->share);
   if (history_) history_->row(row);
 }
 
@@ -245,6 +247,7 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   add("face impulse", books.face_impulse);
   if (status != "failed") {
     const Booked b = books.booked(m);
+    if (m.setup.afterburn) s.energies.push_back({"afterburn", b.afterburn});
     s.counts = {{"floors", double(b.floors)}, {"scaled_cells", double(b.scaled_cells)}, {"first_order_cells", double(b.first_order)}};
   }
   s.counts.push_back({"repeated_steps", double(books.repeated)});

@@ -27,6 +27,7 @@ struct Booked {
       {};  ///< through the sides of the domain, out of lower and into upper: sum of flux dt area
   double cleaned[Cons::count] = {};  ///< removed with traces of a material (alpha < 1e-8)
   double floor_energy = 0;           ///< added where p was below its floor
+  double afterburn = 0;              ///< energy released by products that burn on
   int64_t floors = 0;                ///< how often
   int64_t scaled_cells = 0;          ///< cell-steps whose face states were scaled back to stay positive
   int64_t first_order = 0;           ///< cell-steps repeated with first-order fluxes
@@ -36,7 +37,7 @@ struct Booked {
     for (int i = 0; i < 6; ++i)
       for (int q = 0; q < Cons::count; ++q) side[i][q] += b.side[i][q];
     for (int q = 0; q < Cons::count; ++q) cleaned[q] += b.cleaned[q];
-    floor_energy += b.floor_energy;
+    floor_energy += b.floor_energy, afterburn += b.afterburn;
     floors += b.floors, scaled_cells += b.scaled_cells, first_order += b.first_order, updates += b.updates;
     return *this;
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cfd/adapt.h"
+#include "cfd/afterburn.h"
 #include "common/app/log.h"
 #include "common/app/timers.h"
 
@@ -34,10 +35,12 @@ double place_walls(Model& m, Sweep& sweep, Books& books, const WallMotion& motio
   }
 }
 
-/// Box 1, the fluid's part: fluxes, burn, limits; false if the new state can't be used.
-bool advance_flow(Model& m, Sweep& sweep, double dt) {
+/// Box 1, the fluid's part: fluxes, burn, limits; share: of the products' further energy that is released at its end;
+/// false if the new state can't be used.
+bool advance_flow(Model& m, Sweep& sweep, double dt, double share) {
   Timed timed("flow");
   sweep.exchange(m.state);
+  if (m.setup.afterburn) sweep.burn_on(afterburn_energy(m, share));
   sweep.look(m.refine && (m.state.step + 1) % m.refine->every == 0 ? &*m.refine : nullptr);
   sweep.select(m.state, dt);
   sweep.advance(m.state);
@@ -73,15 +76,18 @@ void book_walls(Model& m, Sweep& sweep, Books& books, double dt, const coupling:
 }  // namespace
 
 double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* motion, bool mean, coupling::Loads* loads) {
+  double share = 0;
   for (int i = 0;; ++i, dt *= 0.5) {
     if (m.walls) dt = place_walls(m, sweep, books, *motion, dt);
-    if (advance_flow(m, sweep, dt)) break;
+    share = share_after(m, dt);
+    if (advance_flow(m, sweep, dt, share)) break;
     if (i == most_tries) fail(m, sweep, dt);
     if (books.repeated++ < told_repeats)
       warn("step {}, t = {:.6g} s: no valid state with dt = {:.3g} s; it is taken again at half of that{}", m.state.step, m.state.t, dt,
            books.repeated == told_repeats ? " (further ones are counted only)" : "");
   }
   sweep.commit(m.state);
+  if (m.setup.afterburn) m.setup.afterburn->share = share;
   books.seconds_between_levels = sweep.seconds_between_levels();
   books.refresh(m, sweep.active());
   if (m.walls) {

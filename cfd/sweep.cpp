@@ -90,7 +90,7 @@ void Sweep::select(const State& s, double dt) {
       if (near_[size_t(b)] != far) continue;
     }
     const bool inert = s.info[size_t(b)].material == 2;
-    if (!setup_.skip_quiet || !gather.quiet(b) || (!inert && burns(b)))
+    if (!setup_.skip_quiet || !gather.quiet(b) || (!inert && (heat_ > 0 || burns(b))))
       active_.push_back(b);
     else
       rest_at_sides(s, b, pending_[size_t(b)]);
@@ -136,6 +136,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   UpdateInput in{
       &setup_.medium, setup_.burn ? &*setup_.burn : nullptr, patch.material != 2 && burns(block), t_, t_ + dt_,
       first_order};
+  in.heat = heat_;
   const int m = patch.material;
   const bool is_gas_block = m != 0 && setup_.medium.is_gas[m - 1];
   patch.shocked = is_gas_block && find_shocks(patch);

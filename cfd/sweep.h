@@ -12,6 +12,7 @@
 #include "cfd/embed/walls.h"
 #include "cfd/amr/radial.h"
 #include "cfd/scheme/block_kernel.h"
+#include "cfd/source/afterburn.h"
 
 namespace bw::cfd {
 
@@ -20,6 +21,7 @@ struct FlowSetup {
   Medium medium;
   Boundary boundary;
   std::optional<Burn> burn;
+  std::optional<Afterburn> afterburn;  ///< its share moves on with the steps
   bool skip_quiet = true;  ///< leave out blocks in which nothing can happen (same bits either way)
 };
 
@@ -44,6 +46,8 @@ class Sweep {
   void fit();
   /// Copies of other ranks' blocks and their info: before select() and advance().
   void exchange(State& s) const { exchange_state(forest_, s); }
+  /// Energy per mass that products release in the next step by burning on [J/kg].
+  void burn_on(double heat) { heat_ = heat; }
   /// Chooses the blocks of a step of size dt.
   void select(const State& s, double dt);
   /// The next step also notes what the flow at its start asks of the grid (rules; nullptr: it does not).
@@ -109,7 +113,7 @@ class Sweep {
   const Forest& forest_;
   const FlowSetup& setup_;
   Walls* walls_;
-  double t_ = 0, dt_ = 0;
+  double t_ = 0, dt_ = 0, heat_ = 0;
   FluxRegister fluxes_;
   std::vector<int> active_;
   size_t stepped_ = 0;

@@ -250,6 +250,18 @@ void release(const UpdateInput& in, const Patch& patch, int k, int j, const doub
   }
 }
 
+/// Products that burn on.
+void burn_on(const UpdateInput& in, const Patch& patch, int k, int j, const double* arho, double* rhoE,
+             Booked& booked) {
+  const BlockShape& s = patch.shape();
+  for (int i = 0; i < s.n[0]; ++i) {
+    if (in.blocked && in.blocked[s.at(k, j, i)]) continue;
+    const double heat = in.heat * std::max(arho[i], 0.0);
+    rhoE[i] += heat;
+    booked.afterburn += heat * s.cell_volume(patch.lower.x, i);
+  }
+}
+
 }  // namespace
 
 UpdateResult update_block(const UpdateInput& in, const Patch& patch, const double* U, const BlockChange& change,
@@ -296,6 +308,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
                 if (in.blocked[s.at(k, j, i)])
                   for (int q = 0; q < Cons::count; ++q) row[q][i] = U[size_t(q) * cells + s.at(k, j, i)];
             if (in.burns) release(in, patch, k, j, U + s.at(k, j, 0), row[Cons::arho1], row[Cons::rhoE]);
+            if (in.heat > 0 && m != 2) burn_on(in, patch, k, j, row[Cons::arho1], row[Cons::rhoE], booked);
             update.mixed_row(row, k, j, marks, booked, result, extremes);
             for (int q = 0; q < Cons::count; ++q)
               std::memcpy(out + size_t(q) * cells + s.at(k, j, 0), row[q], size_t(s.n[0]) * sizeof(double));

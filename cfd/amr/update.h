@@ -21,6 +21,7 @@ struct UpdateInput {
   /// One gas: the spare copy's rows of the other material and of alpha1 are those of the state.
   bool others_hold = false;
   const uint8_t* blocked = nullptr;  ///< [cell] cells that hold no fluid: left as they are; nullptr: none
+  double heat = 0;                   ///< J/kg that material 1 releases in the step besides the burn: booked
 };
 
 struct UpdateResult {

@@ -143,12 +143,12 @@ def gauges(mass, distances):
     return "".join(f'[[fluid.gauge]]\nname = "Z{z:g}"\nposition = [{z * mass ** (1 / 3)!r}, 0.0, 0.0]\n' for z in distances)
 
 
-def air_blast(name, mass, per_radius, distances, end, outer):
-    """A ball of TNT in air, `per_radius` cells along its radius; the gauges by name and the run."""
+def air_blast(name, mass, per_radius, distances, end, outer, more=""):
+    """A ball of TNT in air, `per_radius` cells along its radius, with `more` tables; the gauges by name and the run."""
     charge = (mass / 1630 / (4 / 3 * math.pi)) ** (1 / 3)
     h = charge / per_radius
     text = along_radius("spherical", h * round(outer / h), round(outer / h), end, "0 s", f"{end / 50!r} s") + gauges(mass, distances)
-    text += TNT + AIR + STILL_AIR + burnt_ball(charge)
+    text += TNT + AIR + STILL_AIR + burnt_ball(charge) + more
     result = run(name, text, only="fluid", threads=1)
     return fields.gauges(result.directory), result
 
@@ -179,5 +179,34 @@ def f9():
     yield from against_measured(near, 1.0, first.seconds)
     far, result = further("F9_far", first, 1.0, 4e-3, (5, 10), 32e-3, 14.0)
     yield from against_measured(far, 1.0, result.seconds)
+    one, _ = air_blast("F9_1kg", 1.0, 50, (1,), 2.5e-3, 2.5)
     other, result = air_blast("F9_8kg", 8.0, 50, (1,), 5e-3, 5.0)
     yield from against_measured(other, 8.0, result.seconds)
+    for quantity, scale in (("arrival_time", 2), ("peak_overpressure", 1), ("positive_impulse", 2)):
+        yield close(f"8 kg over 1 kg, both 50 cells in the charge's radius: {quantity.replace('_', ' ')}", other["Z1"][quantity] / one["Z1"][quantity], scale, 1e-9)
+
+
+@case("F9b")
+def f9b():
+    """The same with products that burn on at a constant rate, for 1 and 10 ms, r_c/25: against Kingery and Bulmash; energy released"""
+    for end in (None, 10e-3, 1e-3):
+        more = f'[fluid.afterburn]\nmaterial = "TNT"\nend = {end!r}\n' if end else ""
+        found, result = air_blast(f"F9b_{round(1e3 * end) if end else 0}ms", 1.0, 25, (1, 2, 3, 5), 13e-3, 6.5, more)
+        how = f"for {1e3 * end:g} ms" if end else "not at all"
+        for quantity in against_measured(found, 1.0, result.seconds):
+            yield {**quantity, "quantity": f"burning on {how}: {quantity['quantity']}"}
+    yield from burning_on_in_a_closed_sphere()
+
+
+def burning_on_in_a_closed_sphere():
+    """1 kg of TNT in 1 m; all that is released is booked, and is the further energy of all products but for traces that were removed."""
+    charge, end = (1.0 / 1630 / (4 / 3 * math.pi)) ** (1 / 3), 1e-3
+    text = f'[time]\nend = 2e-3\n{output("0 s", "1e-5 s")}[fluid]\ngeometry = "spherical"\nradius = 1.0\ncells = [400, 1, 1]\n'
+    text += TNT + AIR + STILL_AIR + burnt_ball(charge) + f'[fluid.afterburn]\nmaterial = "TNT"\nend = {end!r}\n'
+    result = run("F9b_closed", text, only="fluid", threads=1)
+    table = fields.history(result.directory / "fluid_history.csv")
+    gained = sum(table[q][-1] - table[q][0] for q in ("energy", "stored_energy")) + table["cleaned energy"][-1]
+    yield at_most("closed sphere: energy gained less booked, over all", (gained - table["afterburn energy"][-1]) / table["energy"][-1], 1e-12, result.seconds)
+    per_mass = reference.tnt_heat_of_combustion() - reference.JWL_SETS["TNT"].e0 / reference.JWL_SETS["TNT"].rho0
+    mass = np.diff(table["afterburnt"]) @ (0.5 * (table["mass TNT"][1:] + table["mass TNT"][:-1]))
+    yield close("closed sphere: energy booked over the mass", table["afterburn energy"][-1] / mass, per_mass, 1e-3)

@@ -332,6 +332,11 @@ KB_IMPULSE = ((-1.75305660315, 2.30629231803), (1.55197227115, -.40463292088, -.
                                                 .00314819515931, .00152044783382, -.0007470265899))
 
 
+def tnt_heat_of_combustion():
+    """C7H5N3O6 + 5.25 O2 -> 7 CO2 + 2.5 H2O(g) + 1.5 N2 at 25 degC [J/kg]; heats of formation in kJ/mol: CODATA, TNT NIST WebBook."""
+    return 1e6 * (7 * 393.51 + 2.5 * 241.83 - 63.2) / (7 * 12.011 + 5 * 1.008 + 3 * 14.007 + 6 * 15.999)
+
+
 def kingery_bulmash(z, mass):
     """Overpressure [Pa], arrival [s] and impulse [Pa s] of the incident wave of `mass` kg at Z = z."""
     def fit(coefficients):
