@@ -229,6 +229,7 @@ Model::Model(const Comm& comm, const Case& cs)
     afterburn_place = cs.fluid.afterburn->place;
   }
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
+  if (cs.fluid.walls.slits != "centre") slits = cs.fluid.walls.slits == "area" ? Slits::area : Slits::sealed;
   if (cs.fluid.amr) refine = cs.fluid.amr->rules;
   if (cs.fluid.start_from) start = std::make_shared<Start>(begin_from(*cs.fluid.start_from, *this));
 }
@@ -237,7 +238,7 @@ void add_walls(Model& m, double p_ref) {
   const GridSize& size = m.forest.size();
   const BlockShape& s = m.forest.finest_shape();
   Lattice lattice{size.lower, s.h, m.forest.cells_of_level(m.forest.levels())};
-  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref);
+  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.slits);
 }
 
 std::vector<uint8_t> blocked_cells(const Model& m, int block) {

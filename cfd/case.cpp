@@ -62,6 +62,7 @@ void FluidCase::describe(Keys& k) {
   k.table("boundary", boundary, "the six sides of the domain");
   for (size_t d = 0; d < 3; ++d) grid.periodic[d] = boundary.side[2 * d] == "periodic";
   k.table("scheme", scheme, "the flow solver");
+  k.table("walls", walls, "how the surfaces of bodies act on the flow");
   k.tables("material", material, "one or two materials");
   k.tables("region", region, "the state at t = 0");
   k.table("start_from", start_from, "over the regions, what a run along a radius ended with");

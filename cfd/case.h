@@ -250,6 +250,16 @@ struct SchemeCase {
   }
 };
 
+struct WallsCase {
+  std::string slits = "centre";
+  template <class K>
+  void describe(K& k) {
+    k.choice("slits", slits, {"centre", "area", "sealed"},
+             "openings narrower than a cell, between walls thinner than one, and edges of such walls. centre: the line between two cell centres decides, all or "
+             "nothing; area: gas flows through the open part of a cell face; sealed: nothing passes a cell face of which any part is blocked");
+  }
+};
+
 struct BoundaryCase {
   std::array<std::string, 6> side{"wall", "wall", "wall", "wall", "wall", "wall"};
   template <class K>
@@ -272,6 +282,7 @@ struct FluidCase {
   std::optional<AmrCase> amr;
   BoundaryCase boundary;
   SchemeCase scheme;
+  WallsCase walls;
   std::vector<MaterialCase> material;
   std::vector<RegionCase> region;
   std::optional<StartCase> start_from;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cfd/embed/cut_scheme.h"
+#include "cfd/embed/orifice.h"
 #include "cfd/embed/wall_gas.h"
 #include "cfd/scheme/block_kernel.h"
 
@@ -51,14 +52,18 @@ class CutKernel {
       for (int d = 0; d < 3; ++d) {
         if (!shape_.used[size_t(d)]) continue;
         const Cell low = moved(x, d, -1), high = moved(x, d, 1);
-        if (cuts.cut(x.c, d, 0))
+        if (cuts.narrow(x.c, d, 0))
+          add(x, narrow_face(low, x, d, 0), d, 1);
+        else if (cuts.cut(x.c, d, 0))
           add(x, wall_face(x, d, 0), d, 1);
         else {
           const Face f = open_face(low, x, d);
           add(x, f, d, 1);
           if (is_redo_[size_t(low.c)]) add(low, f, d, -1);
         }
-        if (cuts.cut(x.c, d, 1))
+        if (cuts.narrow(x.c, d, 1))
+          add(x, narrow_face(x, high, d, 1), d, -1);
+        else if (cuts.cut(x.c, d, 1))
           add(x, wall_face(x, d, 1), d, -1);
         else if (!is_redo_[size_t(high.c)])
           add(x, open_face(x, high, d), d, -1);
@@ -265,8 +270,76 @@ class CutKernel {
     return physical ? out : w;
   }
 
-  /// Flux at the face of x whose link is cut; the wall stands where it will be at mid-step.
-  Face wall_face(Cell x, int d, int side) {
+  /// Flux at a face that a wall blocks in part, as the cell on `side` of the link's lower (1) or upper (0) end feels
+  /// it.
+  Face narrow_face(Cell low, Cell high, int d, int side) {
+    const Cell x = side ? low : high;
+    const double open = cuts_->open(x.c, d, side);
+    Face f = wall_face(x, d, side, 1 - open);
+    const auto blend = [&](const Face& other, double share) {
+      for (int q = 0; q < n_flux; ++q) f.F[q] += share * (other.F[q] - f.F[q]);
+      f.v += share * (other.v - f.v);
+    };
+    if (open == 0) return f;
+    Face through = open_face(low, high, d);
+    // where a cell does not see the opening's width, the flow through it has the time to become steady
+    const Face jet = jet_face(low, high, d, cuts_->wall(x.c, d, side).v, open);
+    for (int q = 0; q < n_flux; ++q) through.F[q] = jet.F[q] + open * (through.F[q] - jet.F[q]);
+    through.v = jet.v + open * (through.v - jet.v);
+    blend(through, open);
+    return f;
+  }
+
+  /// Flux through a narrow opening (cfd/embed/orifice.h) that moves with v_wall.
+  Face jet_face(Cell low, Cell high, int d, const Vec3& v_wall, double open) {
+    State w[2] = {predicted(low).half, predicted(high).half};
+    double K[2], rest[2];
+    for (int i = 0; i < 2; ++i) {
+      K[i] = std::max(gas_->stiffness(w[i]), 1e-12 * w[i][Gas::p]);
+      const double towards = std::max((i ? -1 : 1) * (w[i][size_t(Gas::v + d)] - v_wall[d]), 0.0);
+      rest[i] = w[i][Gas::p] + 0.5 * Gas::rho(w[i]) * towards * towards;
+    }
+    const int from = rest[1] > rest[0] ? 1 : 0;
+    const double sign = from ? -1 : 1;
+    const State &up = w[from], &other = w[1 - from];
+    const Vec3 relative = Gas::velocity(up) - v_wall;
+    Jet jet{0, 0, 0.5 * (up[Gas::p] + other[Gas::p])};
+    if (const double difference = rest[from] - other[Gas::p]; difference > 0) {
+      jet = cfd::jet(Gas::rho(up), up[Gas::p], K[from], gas_->eos.G(up), std::max(sign * relative[d], 0.0),
+                     other[Gas::p]);
+      // a step must not carry more than evens the pressures out
+      const double most = 0.5 * difference * Gas::rho(up) / (K[from] * open * lambda_[d]);
+      if (jet.mass > most) jet.mass = most;
+    }
+    const double rho = Gas::rho(up), flow = sign * jet.mass, speed = flow / rho;
+    const double inner = gas_->eos.G(up) * up[Gas::p] + gas_->pi(up), own = inner + 0.5 * rho * dot(relative, relative);
+    Vec3 momentum = flow * relative;
+    momentum[d] = jet.mass * jet.speed + jet.pressure;
+    const double energy = flow * (own + up[Gas::p]) / rho;
+    // from the wall's frame to that of the grid, which moves across the opening with -v_wall
+    const double v_grid = v_wall[d];
+    Face f;
+    f.v = speed + v_grid;
+    std::fill(f.F, f.F + n_flux, 0.0);
+    for (int q = 0; q < Gas::densities; ++q) f.F[q] = up[size_t(q)] * f.v;
+    const Vec3 v_up = Gas::velocity(up);
+    constexpr int mom = Flow::mixed ? int(Cons::mom) : int(GasCons::mom);
+    for (int e = 0; e < 3; ++e) f.F[mom + e] = momentum[e] + flow * v_wall[e] + v_grid * rho * v_up[e];
+    constexpr int E = Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE);
+    f.F[E] = energy + dot(momentum, v_wall) + 0.5 * flow * dot(v_wall, v_wall) +
+             v_grid * (inner + 0.5 * rho * dot(v_up, v_up));
+    if constexpr (Flow::mixed) {
+      f.F[Cons::alpha1] = up[Prim::alpha1] * f.v;
+      if (patch_->burns) f.F[E] += f.F[Cons::arho1] * patch_->row(Prim::stored_energy, 0, 0)[(from ? high : low).p];
+    }
+    for (double& F : f.F) F *= lambda_[d];
+    f.v *= lambda_[d];
+    return f;
+  }
+
+  /// Flux at the face of x whose link is cut; the wall stands where it will be at mid-step. share_of_face: what is
+  /// booked.
+  Face wall_face(Cell x, int d, int side, double share_of_face = 1) {
     const WallSide& w = cuts_->wall(x.c, d, side);
     const double out = side ? 1 : -1;
     double towards =
@@ -299,7 +372,7 @@ class CutKernel {
     if (!own.pocket && behind_fan(inner, face, w.n, wall.c)) std::copy(beyond, beyond + n, inner);
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
-    const double volume = out * shape_.cell_volume();
+    const double volume = share_of_face * out * shape_.cell_volume();
     for (int q = 0; q < Gas::densities; ++q) exchange_->mass += volume * f.F[q];
     for (int e = 0; e < 3; ++e) exchange_->momentum[e] += volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];
     exchange_->energy += volume * f.F[Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE)];

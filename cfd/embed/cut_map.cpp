@@ -12,6 +12,8 @@ void CutMap::clear(const Lattice& lattice) {
   flags_.clear();
   for (auto& l : link_) l.clear();
   links_.clear();
+  apertures_.clear();
+  apertures_of_.clear();
   may_have_orphans_ = false;
 }
 
@@ -33,6 +35,15 @@ void CutMap::add_link(const Index3& c, int d, const CutLink& link) {
   Index3 upper = c;
   ++upper[d];
   make_tile(upper);  // a tile without links is all open or all covered: cover() relies on it
+}
+
+void CutMap::add_aperture(const Aperture& a) {
+  make_tile(a.cell);  // a tile that is made is looked at
+  Index3 upper = a.cell;
+  ++upper[size_t(a.d)];
+  make_tile(upper);
+  apertures_of_[tile_of(a.cell)].push_back(int32_t(apertures_.size()));
+  apertures_.push_back(a);
 }
 
 void CutMap::cover(Index3 c, int d, int first, int last) {

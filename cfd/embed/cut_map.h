@@ -3,7 +3,9 @@
 // are cut, where, by which face. Kept in small tiles that exist only near the surface, so memory and time go with its
 // area.
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "cfd/embed/lattice.h"
@@ -36,6 +38,14 @@ struct OnFace {
 struct CutLink {
   WallSide below, above;
   OnFace below_at, above_at;
+};
+
+/// A link between two open cells whose cell face a wall blocks in part (cfd/embed/apertures.h).
+struct Aperture {
+  Index3 cell{};  ///< the link leads to its upper neighbour
+  int d = 0;
+  double open = 0;  ///< part of the cell face, in [0, 1)
+  CutLink link;     ///< of the rest
 };
 
 class CutMap {
@@ -81,12 +91,31 @@ class CutMap {
   /// Is a cell in [lower, upper) in metal or a link of one cut? Looks at each where touches().
   bool holds_any(const Index3& lower, const Index3& upper) const;
   size_t link_count() const { return links_.size(); }
+  const std::vector<Aperture>& apertures() const { return apertures_; }
+  std::vector<Aperture>& apertures() { return apertures_; }
+  /// visit(aperture) for those in the tiles of cells [lower, upper).
+  template <class Visit>
+  void for_each_aperture(Index3 lower, Index3 upper, const Visit& visit) const {
+    if (apertures_.empty()) return;
+    for (size_t d = 0; d < 3; ++d) {
+      lower[d] = std::clamp(lower[d], -1, lattice_.n[d]);
+      upper[d] = std::clamp(upper[d], lower[d] + 1, lattice_.n[d] + 1);
+    }
+    const auto tile = [](int i) { return (i + 1) / edge; };
+    for (int k = tile(lower[2]); k <= tile(upper[2] - 1); ++k)
+      for (int j = tile(lower[1]); j <= tile(upper[1] - 1); ++j)
+        for (int i = tile(lower[0]); i <= tile(upper[0] - 1); ++i)
+          if (const auto it = apertures_of_.find((size_t(k) * tiles_[1] + size_t(j)) * tiles_[0] + size_t(i));
+              it != apertures_of_.end())
+            for (const int32_t a : it->second) visit(apertures_[size_t(a)]);
+  }
 
   // --- building (scan.cpp, motion.cpp)
   // --------------------------------------------------------------------------------------
   void note_orphans() { may_have_orphans_ = true; }
   std::vector<CutLink>& links() { return links_; }
   void add_link(const Index3& c, int d, const CutLink& link);
+  void add_aperture(const Aperture& a);
   /// Cells [first, last] of the line through c in direction d are in metal. Call after all links were added.
   void cover(Index3 c, int d, int first, int last);
   void set_flag(const Index3& c, uint8_t flag) { flags_[make_tile(c) * cells + place(c)] |= flag; }
@@ -132,6 +161,8 @@ class CutMap {
   std::vector<uint8_t> flags_;    ///< [made tile][cell]
   std::vector<int32_t> link_[3];  ///< [made tile][cell] into links_; valid where the flag is set
   std::vector<CutLink> links_;
+  std::vector<Aperture> apertures_;
+  std::unordered_map<size_t, std::vector<int32_t>> apertures_of_;  ///< by tile
   bool may_have_orphans_ = false;
 };
 

@@ -19,6 +19,27 @@ void PatchCuts::set_wall(int c, int d, int side, const WallSide& w) {
   bits_[size_t(c)] |= uint16_t(1u << (2 * d + side));
   wall_[2 * d + side][size_t(c)] = int32_t(walls_.size());
   walls_.push_back(w);
+  open_.push_back(0);
+}
+
+/// Apertures between cells of the lattice; those in ghosts beyond its sides matter to no flux.
+void PatchCuts::gather_apertures(const CutMap& map, const Index3& lower, const Index3& upper) {
+  map.for_each_aperture(lower, upper, [&](const Aperture& a) {
+    Index3 c;
+    for (size_t e = 0; e < 3; ++e) {
+      c[e] = a.cell[e] - origin_[e];
+      if (a.cell[e] < lower[e] || a.cell[e] + (int(e) == a.d) >= upper[e]) return;
+    }
+    const int low = at(c[2], c[1], c[0]), high = low + step_[a.d];
+    if (blocked(low) || blocked(high)) return;
+    for (const int side : {1, 0}) {
+      const int cell = side ? low : high;
+      bits_[size_t(cell)] |= uint16_t(first_narrow << (2 * a.d + side));
+      wall_[2 * a.d + side][size_t(cell)] = int32_t(walls_.size());
+      walls_.push_back(side ? a.link.below : a.link.above);
+      open_.push_back(a.open);
+    }
+  });
 }
 
 /// The link between patch cell c (number `at`) and its upper neighbour in direction d.
@@ -79,6 +100,7 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   rules_ = rules;
   origin_ = origin;
   walls_.clear();
+  open_.clear();
   orphans_ = 0;
   Index3 lower = origin, upper;
   for (size_t d = 0; d < 3; ++d) {
@@ -147,6 +169,7 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
           }
     }
   }
+  gather_apertures(map, lower, upper);
   all_blocked_ = true;
   for (int k = 0; k < shape_.n[2]; ++k)
     for (int j = 0; j < shape_.n[1]; ++j)

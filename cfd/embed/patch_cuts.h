@@ -28,7 +28,11 @@ class PatchCuts {
   bool blocked(int c) const { return bits_[size_t(c)] & is_blocked; }
   /// Is the link of the open cell c on this side (0 lower, 1 upper) cut? Every link to a blocked neighbour is.
   bool cut(int c, int d, int side) const { return bits_[size_t(c)] & (1u << (2 * d + side)); }
-  bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts); }
+  /// Is a part of the cell face of this link open, a part blocked by a wall? The link itself may be cut or not.
+  bool narrow(int c, int d, int side) const { return bits_[size_t(c)] & (first_narrow << (2 * d + side)); }
+  /// That part, where narrow().
+  double open(int c, int d, int side) const { return open_[size_t(wall_[2 * d + side][size_t(c)])]; }
+  bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts | all_narrow); }
   const WallSide& wall(int c, int d, int side) const { return walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
   bool any() const { return any_; }                  ///< anything but open fluid?
   bool all_blocked() const { return all_blocked_; }  ///< no fluid in the block itself
@@ -36,9 +40,10 @@ class PatchCuts {
   const BlockShape& shape() const { return shape_; }
 
  private:
-  static constexpr uint16_t all_cuts = 63, is_blocked = 64;
+  static constexpr uint16_t all_cuts = 63, is_blocked = 64, first_narrow = 128, all_narrow = all_cuts * first_narrow;
   void set_wall(int c, int d, int side, const WallSide& w);
   void close_orphan(int d, int c);
+  void gather_apertures(const CutMap& map, const Index3& lower, const Index3& upper);
   void gather_links(const CutMap& map, int d, const Index3& c, int at);
 
   /// One lattice index seen from the patch.
@@ -56,6 +61,7 @@ class PatchCuts {
   std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
   std::vector<int32_t> wall_[6];   ///< into walls_, valid where the bit is set
   std::vector<WallSide> walls_;
+  std::vector<double> open_;  ///< [walls_]
   bool any_ = false, all_blocked_ = false;
   int orphans_ = 0;
 };

@@ -214,10 +214,12 @@ void update_velocities(const coupling::WetSurface& surface, CutMap& map) {
     const Vec3 c = triangle ? v[q[2]] : 0.25 * ((v[q[0]] + v[q[2]]) + (v[q[1]] + v[q[3]]));
     return a + on.b * (b - a) + on.c * (c - a);  // a common velocity is kept exactly
   };
-  for (CutLink& l : map.links()) {
+  const auto update = [&](CutLink& l) {
     l.below.v = at(l.below.face, l.below_at);
     l.above.v = at(l.above.face, l.above_at);
-  }
+  };
+  for (CutLink& l : map.links()) update(l);
+  for (Aperture& a : map.apertures()) update(a.link);
 }
 
 }  // namespace bw::cfd

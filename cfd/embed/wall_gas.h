@@ -67,6 +67,10 @@ struct WallGas {
   static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
   static double rho_c2(const PiTerms<double>& sum, double p, double G) { return (sum.stiffness + p * (1 + G)) / G; }
 
+  double stiffness(const State& w) const { return rho_c2(eos.sum(w), w[p], eos.G(w)); }
+  /// Pi of rho e = G p + Pi.
+  double pi(const State& w) const { return eos.sum(w).pi; }
+
   /// The state at a wall.
   struct AtWall {
     State w;
@@ -82,7 +86,8 @@ struct WallGas {
       for (int q = 0; q < densities; ++q) at[size_t(q)] *= ratio;
       return rho_c2(eos.sum(at), pressure, G);
     });
-    if (!std::isfinite(star.p) || !std::isfinite(star.compress)) return {w, K};  // no gas to speak of: it keeps what it has
+    if (!std::isfinite(star.p) || !std::isfinite(star.compress))
+      return {w, K};  // no gas to speak of: it keeps what it has
     State at = w;
     for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
     at[p] = star.p;

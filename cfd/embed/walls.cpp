@@ -9,8 +9,9 @@
 
 namespace bw::cfd {
 
-Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref)
-    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref) {
+Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
+             Slits slits)
+    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), slits_(slits) {
   for (size_t d = 0; d < 3; ++d) blocks_[d] = lattice.n[d] / block[d];
   map_.clear(lattice);
 }
@@ -71,6 +72,7 @@ void Walls::rescan(const std::vector<Vec3>* x_before) {
   probes_current_ = false;
   CutMap now;
   scan(surface_, lattice_, now);
+  if (slits_ != Slits::centre) find_apertures(surface_, slits_, now);
   if (x_before) changes_ = compare(map_, now, swept_cells(surface_, *x_before, lattice_));
   map_ = std::move(now);
 }

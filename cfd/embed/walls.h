@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cfd/embed/apertures.h"
 #include "cfd/embed/cut_scheme.h"
 #include "cfd/embed/lips.h"
 #include "cfd/embed/motion.h"
@@ -30,7 +31,8 @@ namespace bw::cfd {
 class Walls {
  public:
   /// block: cells per block and direction; p_ref [Pa]: on faces that see no fluid.
-  Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref);
+  Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
+        Slits slits = Slits::centre);
 
   /// A window starts: nodes are at x and keep v for the window [n_nodes]. Rescans if the topology is new or the nodes
   /// are not where end() left them.
@@ -88,6 +90,7 @@ class Walls {
   GhostRules rules_;
   std::array<int, 3> block_, blocks_;
   double p_ref_;
+  Slits slits_;
   bool placed_ = false, probes_current_ = false;
   coupling::WetSurface surface_;
   coupling::NodePlaces places_;

@@ -119,6 +119,7 @@ CASES = {
     "plane outside the domain": ("cfd", FLUID + '[[fluid.plane]]\nname = "a"\nnormal = "x"\nat = 1.0\n', r"plane.*inside the domain", {}),
     "plane without direction": ("cfd", FLUID + '[[fluid.plane]]\nname = "a"\nnormal = "w"\nat = 0.1\n', r"normal", {}),
     "two gauges of one name": ("cfd", FLUID + 2 * '[[fluid.gauge]]\nname = "a"\nposition = ["80 mm", "5 mm", "5 mm"]\n', r"gauge.*name of its own", {}),
+    "unknown way with slits": ("cfd", FLUID + '[fluid.walls]\nslits = "open"\n', r"case.toml:\d+:.*slits.*centre", {}),
     "far field without a state": ("cfd", FLUID.replace("cells = [16, 1, 1]", 'cells = [16, 1, 1]\nboundary = {x_upper = "far_field"}'), r"boundary.*far_field", {}),
     "too much noise": ("cfd", FLUID.replace("cells = [16, 1, 1]", "cells = [16, 1, 1]\nperturbation = 0.7"), r"perturbation", {}),
     "map without cells": ("cfd", FLUID + "[fluid.map]\ncells = [4, 0, 1]\n", r"cells", {}),
