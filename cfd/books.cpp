@@ -61,6 +61,14 @@ FluidSums Books::sums(const Model& m) const {
   return total;
 }
 
+SweptSums Books::swept_sums(const Comm& comm) const {
+  FixedSum sums[4];
+  for (int q = 0; q < 2; ++q) sums[0] += swept.lost[q], sums[1] += swept.made[q];
+  sums[2] += swept.lost[Cons::rhoE], sums[3] += swept.made[Cons::rhoE];
+  FixedSum::sum(comm, sums);
+  return {sums[0].value(), sums[1].value(), sums[2].value(), sums[3].value(), comm.sum(swept.covered), comm.sum(swept.fresh)};
+}
+
 double Books::p_max(const Model& m) const {
   double p = 0;
   for (int b = 0; b < m.forest.local_blocks(); ++b) p = std::max(p, m.state.info[size_t(b)].p_max);

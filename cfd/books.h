@@ -14,6 +14,11 @@ struct FluidSums {
   double volume = 0;            ///< m^3, open cells
 };
 
+struct SweptSums {
+  double mass_lost = 0, mass_made = 0, energy_lost = 0, energy_made = 0;
+  int64_t covered = 0, fresh = 0;
+};
+
 class Books {
  public:
   explicit Books(const Model& m) { fit(m); }
@@ -22,6 +27,8 @@ class Books {
   void refresh(const Model& m, const std::vector<int>& blocks);
   /// Collective.
   FluidSums sums(const Model& m) const;
+  /// All ranks' swept, masses [kg], energies [J] and cells. Collective.
+  SweptSums swept_sums(const Comm& comm) const;
   double p_max(const Model& m) const;  ///< Pa
   Booked booked(const Model& m) const;
 

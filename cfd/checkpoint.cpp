@@ -13,7 +13,7 @@
 namespace bw::cfd {
 namespace {
 
-constexpr int64_t layout = 2;
+constexpr int64_t layout = 3;
 constexpr const char* program = "fluid";
 
 /// Numbers of the whole run, the same on all ranks.
@@ -97,21 +97,31 @@ void restore_blocks(Model& m, const Restored& from) {
   }
 }
 
+void save_surface(const coupling::WetSurface& s, coupling::WallPath& path, const Saved& to) {
+  to.number("version", s.topo_version);
+  to.same("x", s.x), to.same("v", s.v);
+  to.same("quads", s.quads);
+  to.same("node_id", s.node_id), to.same("node_parent", s.node_parent), to.same("face_id", s.face_id);
+  to.same("body", s.body), to.same("flags", s.flags);
+  path.save(to);
+}
+
 }  // namespace
 
-std::optional<Restart> open_restart(const Case& cs, const Comm& comm) {
-  if (cs.restart.empty()) return {};
+std::optional<Restart> open_restart(const Case& cs, const std::string& file_or_folder, const Comm& comm) {
+  if (file_or_folder.empty()) return {};
   CheckpointHead head{program, layout, case_hash(cs.file)};
-  CheckpointReader file(find_checkpoint(cs.restart, program), head, comm);
+  CheckpointReader file(find_checkpoint(file_or_folder, program), head, comm);
   say("goes on from step {}, t = {:.6g} s (written by {} rank{})", head.step, head.t, head.ranks,
       head.ranks == 1 ? "" : "s");
   return Restart{head, std::move(file)};
 }
 
-void write_checkpoint(const Case& cs, const Model& m, const Books& books, Output& out, int keep) {
+std::string write_checkpoint(const Case& cs, const Model& m, const Books& books, Output& out,
+                             coupling::WallPath* path) {
   Timed timed("checkpoint");
-  const std::string& folder = cs.run.output.directory;
-  CheckpointWriter file(checkpoint_path(folder, program, m.state.step),
+  const std::string name = checkpoint_path(cs.run.output.directory, program, m.state.step);
+  CheckpointWriter file(name,
                         {program, layout, case_hash(cs.file), m.state.step, m.state.t}, m.forest.comm());
   const Saved run = file.section("run");
   run.number("numbers",
@@ -129,9 +139,28 @@ void write_checkpoint(const Case& cs, const Model& m, const Books& books, Output
                                 books.wall_mass, books.face_work, books.repeated});
   if (m.walls) m.walls->save(file.section("walls"));
   out.save(file.section("output"));
+  if (path) save_surface(m.walls->surface(), *path, file.section("surface"));
   file.finish();
-  if (m.forest.comm().root()) drop_old_checkpoints(folder, program, keep);
+  return name.substr(name.find_last_of('/') + 1);
+}
+
+void write_checkpoint_alone(const Case& cs, const Model& m, const Books& books, Output& out, int keep) {
+  write_checkpoint(cs, m, books, out, nullptr);
+  if (m.forest.comm().root()) drop_old_checkpoints(cs.run.output.directory, program, keep);
   say("checkpoint at step {}, t = {:.6g} s", m.state.step, m.state.t);
+}
+
+coupling::WetSurface restore_surface(const Restart& from, coupling::WallPath& path) {
+  const Restored saved = from.file.section("surface");
+  coupling::WetSurface s;
+  s.topo_version = saved.number<int64_t>("version");
+  s.x = saved.same<Vec3>("x"), s.v = saved.same<Vec3>("v");
+  s.quads = saved.same<std::array<int32_t, 4>>("quads");
+  s.node_id = saved.same<int64_t>("node_id"), s.node_parent = saved.same<int64_t>("node_parent");
+  s.face_id = saved.same<int64_t>("face_id");
+  s.body = saved.same<int32_t>("body"), s.flags = saved.same<int32_t>("flags");
+  path.restore(saved);
+  return s;
 }
 
 void restore_model(Model& m, const Restart& from, const coupling::WetSurface* surface) {

@@ -149,9 +149,7 @@ void Output::write_row(const Model& m, const Books& books) {
     for (int d = 0; d < 3; ++d) sum += b.side[2 * d + 1][q] - b.side[2 * d][q];
     return sum;
   };
-  double swept[8] = {books.swept.lost[0] + books.swept.lost[1], books.swept.made[0] + books.swept.made[1], books.swept.lost[Cons::rhoE],
-                     books.swept.made[Cons::rhoE], double(books.swept.covered), double(books.swept.fresh), 0, 0};
-  if (m.forest.comm().size() > 1) m.forest.comm().sum(swept);
+  swept_ = books.swept_sums(m.forest.comm());
   std::vector<double> row{m.state.t, double(m.state.step), dt_};
   for (size_t i = 0; i < case_.fluid.material.size(); ++i) row.push_back(s.U[i]);
   row.push_back(s.U[0] + s.U[1]);
@@ -165,8 +163,8 @@ void Output::write_row(const Model& m, const Books& books) {
   row.push_back(out(Cons::rhoE));
   for (const Vec3& v : {books.wall_impulse, books.face_impulse, books.lip_impulse})
     for (int d = 0; d < 3; ++d) row.push_back(v[d]);
-  for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept[0], swept[1], swept[2], swept[3], b.cleaned[Cons::rhoE], b.floor_energy,
-                   swept[4], swept[5], double(b.floors), double(b.scaled_cells), double(b.first_order), double(books.repeated), active_share_})
+  for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept_.mass_lost, swept_.mass_made, swept_.energy_lost, swept_.energy_made, b.cleaned[Cons::rhoE], b.floor_energy,
+                   double(swept_.covered), double(swept_.fresh), double(b.floors), double(b.scaled_cells), double(b.first_order), double(books.repeated), active_share_})
     row.push_back(v);
   if (m.setup.afterburn) row.push_back(b.afterburn), row.push_back(m.setup.afterburn->share);
   if (history_) history_->row(row);
@@ -234,11 +232,11 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   const double flow = timers().seconds("flow");
   s.rates = {{"cell_updates_per_second", (n - updates_before_) / std::max(flow, 1e-9)}, {"cell_updates", n}};
   s.masses = {{"start", first_.U[0] + first_.U[1]}, {"end", last_.U[0] + last_.U[1]}, {"explosive", m.explosive_mass},
-              {"cavity_volume_times_density", m.cavity_mass}, {"covered", books.swept.lost[0] + books.swept.lost[1]},
-              {"uncovered", books.swept.made[0] + books.swept.made[1]}, {"through_walls", books.wall_mass}};
+              {"cavity_volume_times_density", m.cavity_mass}, {"covered", swept_.mass_lost},
+              {"uncovered", swept_.mass_made}, {"through_walls", books.wall_mass}};
   s.energies = {{"start", first_.U[Cons::rhoE]}, {"end", last_.U[Cons::rhoE]}, {"chemical", m.setup.burn ? m.setup.burn->q * m.explosive_mass : 0},
-                {"wall", books.wall_energy}, {"face_work", books.face_work}, {"covered", books.swept.lost[Cons::rhoE]},
-                {"uncovered", books.swept.made[Cons::rhoE]}};
+                {"wall", books.wall_energy}, {"face_work", books.face_work}, {"covered", swept_.energy_lost},
+                {"uncovered", swept_.energy_made}};
   s.momenta = {{"x", last_.U[Cons::mom]}, {"y", last_.U[Cons::mom_y]}, {"z", last_.U[Cons::mom_z]}};
   const auto add = [&](const char* name, const Vec3& v) {
     for (int d = 0; d < 3; ++d) s.momenta.push_back({fmt::format("{} {}", name, "xyz"[d]), v[d]});

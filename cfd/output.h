@@ -53,6 +53,7 @@ class Output {
   Progress progress_;
   double dt_ = 0, t_row_ = -1, t_fields_ = -1, active_share_ = 0;
   FluidSums first_, last_;
+  SweptSums swept_;
   double p_max_ = 0, updates_before_ = 0;
   std::chrono::steady_clock::time_point start_;
 };

@@ -13,6 +13,7 @@
 #include "common/app/timers.h"
 #include "common/app/version.h"
 #include "common/parallel/loop.h"
+#include "coupling/commit.h"
 #include "coupling/fluid_side.h"
 #include "coupling/wall_path.h"
 
@@ -43,6 +44,7 @@ class SolidMotion final : public WallMotion {
   explicit SolidMotion(const coupling::FluidSide& side) : side_(side) {}
   void begin() { path_.begin(side_.window(), side_.surface()); }
   void end(double dt) { path_.end(dt); }
+  coupling::WallPath& path() { return path_; }
   const coupling::WetSurface& surface() const override { return side_.surface(); }
   std::vector<Vec3> x() const override { return path_.x(); }
   std::vector<Vec3> velocity(double dt) const override { return path_.velocity(dt); }
@@ -88,7 +90,7 @@ void open_model(Model& m, const Case& cs, Books& books, const Restart* from = nu
 }
 
 int run_alone(const Case& cs, Model& m) {
-  const std::optional<Restart> from = open_restart(cs, m.forest.comm());
+  const std::optional<Restart> from = open_restart(cs, cs.restart, m.forest.comm());
   std::optional<BodyMotion> motion;
   if (!cs.fluid.body.empty()) {
     const BlockShape& s = m.forest.finest_shape();
@@ -122,7 +124,7 @@ int run_alone(const Case& cs, Model& m) {
       m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
       out.write_due(m, books);
       out.tick(m, dt, sweep.stepped());
-      if (clock.due(m.state.t, m.state.step, m.forest.comm())) write_checkpoint(cs, m, books, out, clock.keep());
+      if (clock.due(m.state.t, m.state.step, m.forest.comm())) write_checkpoint_alone(cs, m, books, out, clock.keep());
     }
   } catch (const PhysicsError& e) {
     out.finish(m, books, "failed", e.what());
@@ -139,18 +141,22 @@ coupling::FluidTotals totals_of(const Model& m, const Books& books) {
   t.mass = s.U[0] + s.U[1];
   t.energy = s.U[Cons::rhoE];
   t.momentum = {s.U[Cons::mom], s.U[Cons::mom_y], s.U[Cons::mom_z]};
-  t.mass_covered = books.swept.lost[0] + books.swept.lost[1];
-  t.mass_uncovered = books.swept.made[0] + books.swept.made[1];
-  t.energy_covered = books.swept.lost[Cons::rhoE];
-  t.energy_uncovered = books.swept.made[Cons::rhoE];
+  const SweptSums swept = books.swept_sums(m.forest.comm());
+  t.mass_covered = swept.mass_lost, t.mass_uncovered = swept.mass_made;
+  t.energy_covered = swept.energy_lost, t.energy_uncovered = swept.energy_made;
   return t;
 }
 
 /// The fluid leads: it takes one step towards the solid's limit and tells the solid how far it came.
 int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   if (!cs.fluid.body.empty()) throw InputError(fmt::format("{}: fluid.body: bodies are for runs of cfd alone; the solid program gives the surface here", cs.file));
+  std::optional<coupling::CommitMark> mark;
+  if (!cs.restart.empty()) mark = coupling::find_commit(cs.restart);
+  const std::optional<Restart> from = open_restart(cs, mark ? mark->fluid_path() : "", m.forest.comm());
   coupling::Hello hello;
   hello.program = "cfd", hello.version = version();
+  hello.features = coupling::feature_checkpoint;
+  if (mark) hello.first_window = mark->window, hello.restart_hash = mark->hash(), hello.t0 = from->head.t;
   hello.t_end = cs.run.time.end;
   hello.lower = cs.fluid.grid.lower, hello.upper = cs.fluid.grid.upper;
   for (int d = 0; d < 3; ++d)
@@ -161,19 +167,34 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   Books books(m);
   std::optional<Sweep> sweep;
   std::optional<Output> out;
+  const auto begin = [&] {
+    open_model(m, cs, books, from ? &*from : nullptr);
+    sweep.emplace(m.forest, m.setup, &*m.walls);
+    std::optional<Restored> written;
+    if (from) written.emplace(from->file.section("output"));
+    out.emplace(cs, m, side.t_end(), written ? &*written : nullptr);
+    out->write_due(m, books);
+  };
+  if (from) {
+    const coupling::WetSurface surface = restore_surface(*from, motion.path());
+    restore_model(m, *from, &surface);
+    begin();
+  }
+  CheckpointClock signal({}, m.state.t, m.state.step);  // when else a checkpoint is due the solid knows
   const auto receive = [&] {
     Timed timed("waiting for the solid", Timed::waiting);
     return side.receive();
   };
   try {
     while (receive()) {
+      if (side.window().checkpoint) {
+        side.kept(write_checkpoint(cs, m, books, *out, &motion.path()));
+        signal.due(m.state.t, m.state.step, m.forest.comm());  // the solid got it as well
+      }
       motion.begin();
       if (!out) {
         m.walls->begin(side.surface(), motion.x(), side.surface().v);
-        open_model(m, cs, books);
-        sweep.emplace(m.forest, m.setup, &*m.walls);
-        out.emplace(cs, m, side.t_end());
-        out->write_due(m, books);
+        begin();
       }
       const coupling::Window window = side.window();
       m.state.t = window.t0;
@@ -190,6 +211,7 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
       loads.totals.work = at_faces.work, loads.totals.swept = at_faces.swept;
       loads.totals.dry_faces = dry, loads.totals.dry_area = dry_area;
       m.state.t = loads.t1;
+      loads.checkpoint = signal.due(m.state.t, m.state.step, m.forest.comm());
       side.send(loads);
       motion.end(dt);
       out->write_due(m, books);
@@ -210,7 +232,6 @@ int run(const Case& cs, const Comm& comm, coupling::Channel* channel) {
     throw InputError(fmt::format("{}: fluid.geometry: expected \"planar\" in a coupled run; start it from a run along a radius with [fluid.start_from]", cs.file));
   if (channel && cs.fluid.start_from && cs.fluid.start_from->keep_time)
     throw InputError(fmt::format("{}: expected keep_time = false in a coupled run, which begins at 0", cs.fluid.start_from->place));
-  if (channel && !cs.restart.empty()) throw InputError("command line: --restart: the pair writes no checkpoints");
   Model m(comm, cs);
   return channel ? run_coupled(cs, m, *channel) : run_alone(cs, m);
 }

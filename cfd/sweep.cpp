@@ -223,11 +223,17 @@ void Sweep::measure_loads(const State& s) {
 }
 
 WallExchange Sweep::wall_exchange() const {
-  WallExchange sum;
-  for (int b : active_) sum += wall_[size_t(b)];
-  double values[5] = {sum.mass, sum.momentum.x, sum.momentum.y, sum.momentum.z, sum.energy};
-  forest_.comm().sum(values);
-  return {values[0], {values[1], values[2], values[3]}, values[4], forest_.comm().sum(sum.links)};
+  FixedSum sums[5];
+  int64_t links = 0;
+  for (int b : active_) {
+    const WallExchange& one = wall_[size_t(b)];
+    const double values[5] = {one.mass, one.momentum.x, one.momentum.y, one.momentum.z, one.energy};
+    for (size_t i = 0; i < 5; ++i) sums[i] += values[i];
+    links += one.links;
+  }
+  FixedSum::sum(forest_.comm(), sums);
+  return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}, sums[4].value(),
+          forest_.comm().sum(links)};
 }
 
 void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {

@@ -13,6 +13,7 @@
 #include "cfd/amr/radial.h"
 #include "cfd/scheme/block_kernel.h"
 #include "cfd/source/afterburn.h"
+#include "common/parallel/fixed_sum.h"
 
 namespace bw::cfd {
 
@@ -33,7 +34,7 @@ struct BadCell {
 /// What moving walls took from the fluid and gave to it: cells covered and uncovered (DESIGN 5b: booked, not given
 /// back).
 struct Swept {
-  double lost[Cons::count] = {}, made[Cons::count] = {};  ///< integrals of U
+  FixedSum lost[Cons::count] = {}, made[Cons::count] = {};  ///< integrals of U
   int64_t covered = 0, fresh = 0;                         ///< cells
 };
 

@@ -58,6 +58,13 @@ class AddedMass {
     return largest;
   }
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.value("answered", answered_), a.value("topo_version", topo_version_), a.list("face_id", face_id_);
+    a.list("areal_mass", areal_mass_), a.list("impedance", impedance_);
+  }
+
  private:
   double share_;
   bool answered_ = false;

@@ -11,6 +11,7 @@ namespace bw::coupling {
 FluidSide::FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hello) : channel_(channel) {
   t_end_ = shake_hands(channel, cs, hello);
   known_.t = hello.t0;
+  known_.window = hello.first_window - 1;
 }
 
 bool FluidSide::receive() {
@@ -40,6 +41,7 @@ bool FluidSide::receive() {
              .t0 = step_.t0,
              .t1_max = step_.t1_max,
              .dt_stable = step_.dt_stable,
+             .checkpoint = bool(step_.flags & step_checkpoint),
              .last = bool(step_.flags & step_last),
              .mean_pressure = bool(step_.flags & step_mean_pressure)};
   channel_.set_place(window_.index, window_.t0);
@@ -90,6 +92,15 @@ void FluidSide::receive_surface() {
   known_.hash = step_.hash;
   known_.n_nodes = step_.n_nodes;
   known_.n_faces = step_.n_faces;
+}
+
+void FluidSide::kept(const std::string& file) {
+  if (!channel_.leader()) return;
+  KeptBlock block{};
+  block.window = window_.index;
+  std::snprintf(block.file, sizeof block.file, "%s", file.c_str());
+  channel_.send(tag_kept, &block, sizeof block);
+  channel_.flush();
 }
 
 void FluidSide::send(const Loads& loads) {

@@ -30,6 +30,9 @@ class FluidSide {
   const WetSurface& surface() const { return surface_; }
   /// The connectivity is not that of the window before (true for the first).
   bool topology_changed() const { return topology_changed_; }
+  /// To be called after receive() where window().checkpoint asks for it: the state at t0 is on the disk, in a file of
+  /// this name in the output folder.
+  void kept(const std::string& file);
   /// Answers. The leader's loads; t1 in (t0, t1_max].
   void send(const Loads& loads);
 

@@ -9,9 +9,10 @@
 
 namespace bw::coupling {
 
-double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello) {
+double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello, uint64_t* features) {
   const Timed timed("handshake", Timed::waiting);
   double t_end = hello.t_end;
+  uint64_t can = 0;
   if (channel.leader()) {
     const HelloBlock mine = pack(hello, cs, name_of(channel.role()), channel.mine().size());
     channel.send(tag_hello, &mine, sizeof mine);
@@ -25,6 +26,7 @@ double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello)
     channel.set_peer(other.program, std::min(mine.silence_limit, other.silence_limit));
     if (const Verdict fault = check_agreement(mine, other)) channel.fail(fault->code, fault->text);
     channel.flush();
+    can = other.features;
     if (other.t_end > 0) t_end = t_end > 0 ? std::min(t_end, other.t_end) : other.t_end;
     if (!(t_end > hello.t0)) channel.fail(exit_disagreement, "HELLO: neither program knows when to end");
     if (channel.role() == Role::solid) {  // one of the two says so
@@ -34,6 +36,8 @@ double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello)
     }
   }
   channel.share(&t_end, sizeof t_end);
+  channel.share(&can, sizeof can);
+  if (features) *features = can;
   return t_end;
 }
 

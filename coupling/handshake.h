@@ -7,6 +7,7 @@ namespace bw::coupling {
 
 /// HELLO both ways, checked; the same end time on all ranks of both sides: the smaller of the two [s]. Ends the run if
 /// the two programs do not fit together.
-double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello);
+/// features: bits of the other program.
+double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello, uint64_t* features = nullptr);
 
 }  // namespace bw::coupling

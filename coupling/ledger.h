@@ -62,6 +62,12 @@ class Ledger {
   std::optional<std::string> close(std::span<const Vec3> x_end = {});
   void set_added_mass(double share) { row_.added_mass = share; }
   const LedgerRow& row() const { return row_; }
+  /// In a checkpoint, between two windows.
+  template <class A>
+  void keep(A& a) {
+    a.value("row", row_), a.value("first", first_), a.list("face_id", face_id_);
+    if (a.restores()) topo_version_ = -1;  // the next surface is looked at anew
+  }
 
  private:
   double p_ref_, tolerance_;

@@ -83,6 +83,9 @@ HelloBlock pack(const Hello& hello, const CouplingCase& cs, const char* role, in
   h.t0 = hello.t0;
   h.t_end = hello.t_end;
   h.features = hello.features;
+  h.restart_id = hello.restart_hash != 0;
+  h.restart_window = hello.first_window;
+  h.restart_hash = hello.restart_hash;
   h.scheme = int32_t(cs.kind());
   h.ranks = ranks;
   put(h.lower, hello.lower);
@@ -112,6 +115,12 @@ Verdict check_agreement(const HelloBlock& mine, const HelloBlock& other) {
   };
   if (differ(mine.p_ref, other.p_ref, 1e-12))
     return contradict("the reference pressure", mine.p_ref, other.p_ref, "Pa");
+  if (mine.restart_id != other.restart_id || mine.restart_window != other.restart_window ||
+      mine.restart_hash != other.restart_hash)
+    return Fault{exit_disagreement,
+                 fmt::format("HELLO: {} goes on from window {} of checkpoint {:016x}, {} from window {} of {:016x}",
+                             text(mine.program), mine.restart_window, mine.restart_hash, text(other.program),
+                             other.restart_window, other.restart_hash)};
   if (differ(mine.t0, other.t0, 1e-12)) return contradict("the start time", mine.t0, other.t0, "s");
   if (!std::isfinite(other.t_end)) return Fault{exit_bad_value, "HELLO: t_end is not a number"};
   if (mine.scheme != 0 && other.scheme != 0 && mine.scheme != other.scheme)
@@ -153,6 +162,7 @@ StepBlock pack(const Window& window, const WetSurface& surface) {
   s.t1_max = window.t1_max;
   s.dt_stable = window.dt_stable;
   if (window.last) s.flags |= step_last;
+  if (window.checkpoint) s.flags |= step_checkpoint;
   if (window.mean_pressure) s.flags |= step_mean_pressure;
   return s;
 }
@@ -218,6 +228,7 @@ LoadBlock pack(const Loads& loads, const StepBlock& asked) {
   if (!loads.traction.empty()) b.flags |= load_traction;
   if (!loads.impedance.empty()) b.flags |= load_impedance;
   if (loads.stop) b.flags |= load_stop;
+  if (loads.checkpoint) b.flags |= load_checkpoint;
   const FluidTotals& t = loads.totals;
   put(b.impulse, t.impulse);
   put(b.moment, t.moment);

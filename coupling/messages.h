@@ -30,6 +30,7 @@ enum Tag : int {
   tag_p = 131,          // f64[n_faces]
   tag_traction = 132,   // f64[n_faces][3]
   tag_impedance = 133,  // f64[n_faces]
+  tag_kept = 141,
   tag_bye = 180,
   tag_fail = 190,
   tag_ack = 191,
@@ -74,7 +75,13 @@ struct LoadBlock {
   char reserved[64];
 };
 static_assert(sizeof(LoadBlock) == 256);
-enum LoadFlag : uint32_t { load_traction = 1, load_impedance = 2, load_stop = 4 };
+enum LoadFlag : uint32_t { load_traction = 1, load_impedance = 2, load_stop = 4, load_checkpoint = 8 };
+
+struct KeptBlock {
+  int64_t window;  // the fluid's state at its start is on the disk
+  char file[248];  // in the output folder
+};
+static_assert(sizeof(KeptBlock) == 256);
 
 struct ByeBlock {
   int32_t code, reserved0;  // code 0: finished as agreed
@@ -93,12 +100,14 @@ static_assert(sizeof(FailBlock) == 512);
 /// What one side says of itself in HELLO.
 struct Hello {
   std::string program = {}, version = {};  ///< for people
-  std::string units = "SI";      ///< native units of the program, for the log only; the wire is SI
-  double t0 = 0, t_end = 0;      ///< s; t_end <= 0: no opinion
-  Vec3 lower = {}, upper = {};   ///< m; solid: box of the wet surface (lower > upper: none yet), fluid: its domain
-  uint64_t features = 0;         ///< bits of Feature
+  std::string units = "SI";                ///< native units of the program, for the log only; the wire is SI
+  double t0 = 0, t_end = 0;                ///< s; t_end <= 0: no opinion
+  Vec3 lower = {}, upper = {};  ///< m; solid: box of the wet surface (lower > upper: none yet), fluid: its domain
+  uint64_t features = 0;        ///< bits of Feature
+  int64_t first_window = 0;     ///< where a checkpoint of the pair goes on
+  uint64_t restart_hash = 0;    ///< CommitMark::hash(); 0: a fresh start
 };
-enum Feature : uint64_t { feature_traction = 1, feature_impedance = 2 };
+enum Feature : uint64_t { feature_traction = 1, feature_impedance = 2, feature_checkpoint = 4 };
 
 /// Something that must end the run: a CouplingExit and the reason.
 struct Fault {

@@ -19,6 +19,15 @@ class NodePlaces {
     for (size_t i = 0; i < surface.node_id.size(); ++i) sorted_.push_back({surface.node_id[i], int64_t(i)});
     if (!std::is_sorted(sorted_.begin(), sorted_.end())) std::sort(sorted_.begin(), sorted_.end());
   }
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    std::vector<int64_t> ids, places;
+    for (const auto& [id, place] : sorted_) ids.push_back(id), places.push_back(place);
+    a.list("ids", ids), a.list("places", places);
+    sorted_.clear();
+    for (size_t i = 0; i < ids.size(); ++i) sorted_.push_back({ids[i], places[i]});
+  }
   /// -1: not there.
   int64_t find(int64_t id) const {
     if (++hint_ >= sorted_.size() || sorted_[hint_].first != id)

@@ -39,6 +39,13 @@ class WallPredictor {
   /// The window that started with the surface of the last predict() lasted dt.
   void window_lasted(double dt) { dt_last_ = dt; }
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.value("topo_version", topo_version_), a.value("dt_last", dt_last_), a.list("v_last", v_last_);
+    places_.keep(a);
+  }
+
  private:
   Scheme scheme_;
   int64_t topo_version_ = -1;

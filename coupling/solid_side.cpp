@@ -14,14 +14,21 @@ namespace bw::coupling {
 
 SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path)
     : channel_(channel), case_(cs), predictor_(cs.kind()), added_mass_(cs.added_mass), ledger_(cs.reference_pressure) {
-  t_end_ = shake_hands(channel, cs, hello);
+  t_end_ = shake_hands(channel, cs, hello, &features_);
   t_last_ = hello.t0;
-  if (channel.leader() && !history_path.empty()) history_.emplace(open_ledger_table(history_path));
+  if (channel.leader()) history_path_ = history_path;
+  if (channel.leader() && !history_path.empty() && hello.restart_hash == 0)
+    history_.emplace(open_ledger_table(history_path));
+}
+
+void SolidSide::resume_table(int64_t rows) {
+  if (!history_path_.empty()) history_.emplace(resume_ledger_table(history_path_, rows));
 }
 
 void SolidSide::send(Window window, const WetSurface& surface, std::span<const double> areal_mass) {
   const Timed timed("send surface");
   window.index = next_window_++;
+  window.checkpoint = asks_checkpoint_;
   window.mean_pressure = case_.kind() == Scheme::fluid_first;
   if (!(window.t1_max > window.t0) || window.t1_max > t_end_) window.t1_max = t_end_;
   if (case_.window_max > 0) window.t1_max = std::min(window.t1_max, window.t0 + case_.window_max);
@@ -31,7 +38,8 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
   channel_.set_place(window.index, window.t0);
   if (!channel_.leader()) return;
 
-  const bool renewed = window.index == 0 || surface.topo_version != sent_.topo_version;
+  const bool renewed = !is_known_ || surface.topo_version != sent_.topo_version;
+  is_known_ = true;
   if (renewed)
     sent_ = surface;
   else
@@ -76,6 +84,15 @@ const Loads& SolidSide::receive() {
   LoadBlock load{};
   if (channel_.leader()) {
     const double waited_before = channel_.seconds_waited();
+    if (asks_checkpoint_) {
+      KeptBlock block{};
+      channel_.receive(tag_kept, "CHECKPOINT", &block, sizeof block);
+      if (block.window != window_.index)
+        channel_.fail(exit_malformed,
+                      fmt::format("CHECKPOINT: of window {}, asked was {}", block.window, window_.index));
+      block.file[sizeof block.file - 1] = 0;
+      fluid_file_ = block.file;
+    }
     channel_.receive(tag_load, "LOAD", &load, sizeof load);
     if (const Verdict fault = check_load(load, step_)) channel_.fail(fault->code, fault->text);
     const size_t n = size_t(load.n_faces);
@@ -95,7 +112,9 @@ const Loads& SolidSide::receive() {
   channel_.share(loads_.traction);
   channel_.share(loads_.impedance);
   if (!loads_.impedance.empty()) channel_.share(sent_.v);
+  asks_checkpoint_ = false;
   loads_.t1 = load.t1;
+  loads_.checkpoint = load.flags & load_checkpoint;
   loads_.stop = load.flags & load_stop;
   loads_.totals = totals_of(load);
 

@@ -26,7 +26,8 @@ namespace bw::coupling {
 
 class SolidSide {
  public:
-  /// Says HELLO and checks the answer. Rows go to history_path (leader; empty: none).
+  /// Says HELLO and checks the answer. Rows go to history_path (leader; empty: none); a run that goes on calls keep()
+  /// next, which finds its rows there again.
   SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path);
 
   /// s; the smaller of the two programs' ends.
@@ -43,6 +44,26 @@ class SolidSide {
   /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after receive, if the
   /// fluid told impedances.
   const std::vector<Vec3>& announced() const { return sent_.v; }
+  /// The fluid can keep its state.
+  bool fluid_keeps() const { return features_ & feature_checkpoint; }
+  /// The fluid asked for a checkpoint in its last answer.
+  bool checkpoint_asked() const { return loads_.checkpoint; }
+  /// The next window asks the fluid to keep its state at t0; after receive() it is in this file of the output folder
+  /// (leader).
+  void ask_checkpoint() { asks_checkpoint_ = true; }
+  const std::string& fluid_file() const { return fluid_file_; }
+  int64_t next_window() const { return next_window_; }
+  /// In a checkpoint, between two windows.
+  template <class A>
+  void keep(A& a) {
+    a.value("next_window", next_window_), a.value("dt_usual", dt_usual_), a.value("t_last", t_last_);
+    int64_t rows = history_ ? history_->rows() : 0;
+    a.value("rows", rows);
+    if (history_) history_->flush();  // rows before the checkpoint don't come again
+    if (a.restores()) resume_table(rows);
+    A predictor = a.section("predictor"), added_mass = a.section("added_mass"), ledger = a.section("ledger");
+    predictor_.keep(predictor), added_mass_.keep(added_mass), ledger_.keep(ledger);
+  }
   /// One substep's totals (leader's count; call on any).
   void add(const SolidTotals& totals) { ledger_.add(totals); }
   /// What the solid got beyond these in the window [N s, J]: an advance on what the fluid will give.
@@ -55,9 +76,14 @@ class SolidSide {
   void finish(const std::string& reason = "finished");
 
  private:
+  void resume_table(int64_t rows);
+
   Channel& channel_;
   CouplingCase case_;
   double t_end_ = 0;
+  uint64_t features_ = 0;                            // of the fluid
+  bool asks_checkpoint_ = false, is_known_ = false;  // is_known_: sent_ was sent
+  std::string fluid_file_, history_path_;
   Window window_;
   int64_t next_window_ = 0;
   WetSurface sent_;  // as on the wire: v is predicted

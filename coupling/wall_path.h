@@ -49,7 +49,43 @@ class WallPath {
   }
   void end(double dt) { x_ = x_end(dt); }
 
+  /// In a checkpoint, between two windows. to: section of a file; likewise from.
+  template <class S>
+  void save(const S& to) {
+    Saving<S> a{to};
+    keep(a);
+  }
+  template <class S>
+  void restore(const S& from) {
+    Restoring<S> a{from};
+    keep(a);
+  }
+
  private:
+  template <class S>
+  struct Saving {
+    const S& to;
+    template <class T>
+    void list(const char* name, const std::vector<T>& a) {
+      to.same(name, a);
+    }
+  };
+  template <class S>
+  struct Restoring {
+    const S& from;
+    template <class T>
+    void list(const char* name, std::vector<T>& a) {
+      a = from.template same<T>(name);
+    }
+  };
+  template <class A>
+  void keep(A& a) {
+    std::vector<int64_t> version{topo_version_};
+    a.list("topo_version", version), a.list("wall_x", x_);
+    topo_version_ = version.at(0);
+    places_.keep(a);
+  }
+
   int64_t topo_version_ = -1;
   NodePlaces places_;             // of x_
   std::vector<Vec3> x_;           // the walls

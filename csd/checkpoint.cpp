@@ -6,6 +6,7 @@
 #include "common/app/log.h"
 #include "common/app/timers.h"
 #include "csd/archive.h"
+#include "csd/coupled.h"
 #include "csd/output.h"
 
 namespace bw::csd {
@@ -73,23 +74,23 @@ void check_checkpoints(const Case& cs) {
     if (is_there) throw InputError(fmt::format("{}: checkpoint: runs with {} can't be continued yet", cs.file, table));
 }
 
-std::optional<Restart> open_restart(const Case& cs, const Comm& comm) {
-  if (cs.restart.empty()) return {};
+std::optional<Restart> open_restart(const Case& cs, const std::string& file_or_folder, const Comm& comm) {
+  if (file_or_folder.empty()) return {};
   check_checkpoints(cs);
   CheckpointHead head{program, layout, case_hash(cs.file)};
-  CheckpointReader file(find_checkpoint(cs.restart, program), head, comm);
+  CheckpointReader file(find_checkpoint(file_or_folder, program), head, comm);
   say("goes on from step {}, t = {:.6g} s (written by {} rank{})", head.step, head.t, head.ranks,
       head.ranks == 1 ? "" : "s");
   return Restart{head, std::move(file)};
 }
 
-void write_checkpoint(const Case& cs, Model& m, const Progressed& run, Output& out, int keep) {
+std::string write_checkpoint(const Case& cs, Model& m, const Progressed& run, Output& out, Coupled* coupled) {
   const Timed timed("checkpoint");
   const Comm comm = comm_of(m);
   if (const auto& ranks = m.physics.elements.ranks) ranks->complete(m.state);
   const std::string& folder = cs.run.output.directory;
-  CheckpointWriter file(checkpoint_path(folder, program, m.state.step),
-                        {program, layout, case_hash(cs.file), m.state.step, m.state.t}, comm);
+  const std::string path = checkpoint_path(folder, program, m.state.step);
+  CheckpointWriter file(path, {program, layout, case_hash(cs.file), m.state.step, m.state.t}, comm);
   const Saved mesh = file.section("mesh");
   mesh.same("hex", std::vector<std::array<NodeId, 8>>(m.mesh.hex.begin(), m.mesh.hex.end()));
   mesh.same("parent", std::vector<NodeId>(m.mesh.parent.begin(), m.mesh.parent.end()));
@@ -99,8 +100,14 @@ void write_checkpoint(const Case& cs, Model& m, const Progressed& run, Output& o
   Progressed now = run;
   keep_run(all.section("run"), now);
   out.keep(all.section("output"));
+  if (coupled) coupled->keep(all.section("coupling"), m);
   file.finish();
-  if (comm.root()) drop_old_checkpoints(folder, program, keep);
+  return path;
+}
+
+void write_checkpoint_alone(const Case& cs, Model& m, const Progressed& run, Output& out, int keep) {
+  write_checkpoint(cs, m, run, out, nullptr);
+  if (comm_of(m).root()) drop_old_checkpoints(cs.run.output.directory, program, keep);
   say("checkpoint at step {}, t = {:.6g} s", m.state.step, m.state.t);
 }
 

@@ -12,6 +12,7 @@
 
 namespace bw::csd {
 
+class Coupled;
 class Output;
 
 /// Where the run stands between two steps.
@@ -24,13 +25,15 @@ struct Restart {
   CheckpointHead head;
   CheckpointReader file;
 };
-/// The checkpoint that the case names; nothing if it names none. InputError if it doesn't fit.
-std::optional<Restart> open_restart(const Case& cs, const Comm& comm);
+/// The checkpoint in a file or the latest in a folder; nothing if that is empty. InputError if it doesn't fit the case.
+std::optional<Restart> open_restart(const Case& cs, const std::string& file_or_folder, const Comm& comm);
 /// Into a model that build() has just made. InputError if the checkpoint is of another mesh.
 Progressed restore_model(Model& model, const Restart& from);
 
-/// Into the case's folder; older ones than the latest `keep` are removed. Collective.
-void write_checkpoint(const Case& cs, Model& model, const Progressed& run, Output& out, int keep);
+/// Into the case's folder, coupled or not (null). Collective. Returns its path.
+std::string write_checkpoint(const Case& cs, Model& model, const Progressed& run, Output& out, Coupled* coupled);
+/// One of a run alone: older ones than the latest `keep` are removed.
+void write_checkpoint_alone(const Case& cs, Model& model, const Progressed& run, Output& out, int keep);
 
 /// InputError if the case has a module whose state can't be kept.
 void check_checkpoints(const Case& cs);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "common/app/log.h"
 #include "common/app/version.h"
 #include "common/io/file.h"
 #include "common/math/sum.h"
@@ -13,8 +15,11 @@
 namespace bw::csd {
 namespace {
 
-coupling::Hello hello_of(const Case& cs, const Model& m, const coupling::WetSurface& wet) {
+coupling::Hello hello_of(const Case& cs, const Model& m, const coupling::WetSurface& wet,
+                         const coupling::CommitMark* mark) {
   coupling::Hello h;
+  h.features = coupling::feature_checkpoint;
+  if (mark) h.first_window = mark->window, h.restart_hash = mark->hash();
   h.program = "csd", h.version = version();
   h.t0 = m.state.t, h.t_end = cs.run.time.end;
   h.lower = {1e300, 1e300, 1e300}, h.upper = {-1e300, -1e300, -1e300};
@@ -44,14 +49,23 @@ double step_share(const TimeStepCase& how, double dt_stable) {
 
 }  // namespace
 
-Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m)
+void expect_fluid(const Case& cs, Model& m) {
+  if (!m.physics.loads) m.physics.loads.emplace(m.mesh, std::vector<LoadKind>{});
+  if (cs.coupling.radiates()) m.physics.loads->radiation.emplace();
+}
+
+Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m, const PairRestart* from)
     : case_(cs), surface_(m.mesh, m.topology, cs.solid.wet.faces, cs.solid.wet.place) {
   if (const auto& ranks = m.physics.elements.ranks) ranks->follow_all(m.state);
-  if (!m.physics.loads) m.physics.loads.emplace(m.mesh, std::vector<LoadKind>{});
   surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
   make_folder(cs.run.output.directory);
-  side_ = std::make_unique<coupling::SolidSide>(channel, cs.coupling, hello_of(cs, m, surface_.wet()),
+  side_ = std::make_unique<coupling::SolidSide>(channel, cs.coupling,
+                                                hello_of(cs, m, surface_.wet(), from ? &from->mark : nullptr),
                                                 cs.run.output.directory + "/coupling_history.csv");
+  const RunControl::Checkpoint& rules = cs.run.checkpoint;
+  if (!side_->fluid_keeps() && (rules.every > 0 || rules.every_wall > 0 || rules.every_steps > 0))
+    channel.fail(coupling::exit_disagreement, "checkpoint: the fluid program can't keep its state");
+  if (from) keep(Archive(from->file.file.section("model"), m.mesh, m.physics.elements).section("coupling"), m);
 }
 
 std::vector<Vec3> Coupled::positions(const Model& m) const {
@@ -61,11 +75,38 @@ std::vector<Vec3> Coupled::positions(const Model& m) const {
   return x;
 }
 
+void Coupled::keep(Archive a, Model& m) {
+  surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
+  int64_t version = surface_.wet().topo_version;
+  a.value("topo_version", version);
+  surface_.go_on_from(version);
+  side_->keep(a);
+}
+
+void Coupled::commit_with_next(const std::string& file, int keep) {
+  if (!side_->fluid_keeps()) {
+    warn("no checkpoint: the fluid program can't keep its state");
+    return;
+  }
+  const std::filesystem::path path = file;
+  to_commit_.emplace();
+  to_commit_->solid = path.filename().string(), to_commit_->folder = path.parent_path().string();
+  marks_kept_ = keep;
+  side_->ask_checkpoint();
+}
+
 double Coupled::exchange(Model& m, double dt_stable, double t_max) {
+  if (to_commit_) to_commit_->window = side_->next_window(), to_commit_->t = m.state.t;
   surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
   nodes_ = surface_.nodes();
   side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), areal_mass(m, surface_));
   const coupling::Loads& loads = side_->receive();
+  if (to_commit_ && !side_->fluid_file().empty()) {  // the leader
+    to_commit_->fluid = side_->fluid_file();
+    coupling::commit(*to_commit_, marks_kept_);
+    say("checkpoint of the pair at t = {:.6g} s", m.state.t);
+  }
+  to_commit_.reset();
   const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), on_faces);
   const std::vector<Vec3> back = renew_radiation(m, loads, dt_stable, loads.t1 - m.state.t);
@@ -79,13 +120,9 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
 
 std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& loads, double dt_stable, double dt) {
   auto& radiation = m.physics.loads->radiation;
-  if (!case_.coupling.radiates() || loads.impedance.empty()) {
-    radiation.reset();
-    return {};
-  }
+  if (!radiation) return {};
   const size_t n = surface_.faces().size();
   std::vector<Vec3> back(n);
-  if (!radiation) radiation.emplace();
   // faces keep their places; under box1 the fluid's walls jump to the solid, and nothing is repaid
   if (case_.coupling.kind() == coupling::Scheme::fluid_first)
     for (size_t i = 0; i < radiation->impulses().size(); ++i) back[i] = radiation->impulses()[i] / -dt;
@@ -94,7 +131,7 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
     const auto& quad = surface_.wet().quads[i];
     const Vec3 area = coupling::area_vector(surface_.wet().x, quad);
     const double size = norm(area);
-    if (!(size > 0)) continue;
+    if (!(size > 0) || loads.impedance.empty()) continue;
     faces[i] = {surface_.faces()[i], area / size, loads.impedance[i] * size, 0};
     faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);
   }

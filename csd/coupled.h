@@ -2,24 +2,45 @@
 // csd's end of the line to a fluid program: the wet surface out, pressures in, window by window.
 #pragma once
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "coupling/commit.h"
 #include "coupling/solid_side.h"
+#include "csd/archive.h"
 #include "csd/case.h"
+#include "csd/checkpoint.h"
 #include "csd/mesh/surface.h"
 #include "csd/model.h"
 
 namespace bw::csd {
 
+/// Before a model that is to be coupled is restored: what its loads hold then.
+void expect_fluid(const Case& cs, Model& model);
+
+/// Where a pair goes on.
+struct PairRestart {
+  const Restart& file;
+  const coupling::CommitMark& mark;
+};
+
 class Coupled {
  public:
-  Coupled(coupling::Channel& channel, const Case& cs, Model& model);
+  Coupled(coupling::Channel& channel, const Case& cs, Model& model, const PairRestart* from);
 
   double t_end() const { return side_->t_end(); }
   bool stop_asked() const { return side_->stop_asked(); }
   /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window. Returns the
   /// window's end, at most t_max.
   double exchange(Model& model, double dt_stable, double t_max);
+  /// Between two windows: the fluid wants a checkpoint.
+  bool checkpoint_asked() const { return side_->checkpoint_asked(); }
+  /// The solid's checkpoint of the time at which the next window starts is in this file: the exchange asks the fluid
+  /// for its own, and commits both.
+  void commit_with_next(const std::string& file, int keep);
+  /// In a checkpoint, between two windows.
+  void keep(Archive a, Model& model);
   /// Around each step of the window.
   void before_step(const Model& model);
   void after_step(const Model& model, double dt);
@@ -38,6 +59,8 @@ class Coupled {
   std::vector<Vec3> force_, x_before_;  ///< per node of it: N in this window, m
   std::vector<Vec3> back_;              ///< per node: N in this window, that give back what radiation advanced
   std::unique_ptr<coupling::SolidSide> side_;
+  std::optional<coupling::CommitMark> to_commit_;
+  int marks_kept_ = 1;
 };
 
 }  // namespace bw::csd

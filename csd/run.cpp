@@ -71,18 +71,22 @@ bool wants_checkpoints(const RunControl::Checkpoint& rules) {
 
 int run(const Case& cs, Model& m, coupling::Channel* channel) {
   if (wants_checkpoints(cs.run.checkpoint)) check_checkpoints(cs);
-  if (channel && (wants_checkpoints(cs.run.checkpoint) || !cs.restart.empty()))
-    throw InputError(cs.file + ": checkpoint: a coupled solid writes none and can't go on from one");
-  const std::optional<Restart> from = open_restart(cs, comm_of(m));
+  std::optional<coupling::CommitMark> mark;
+  if (channel && !cs.restart.empty()) mark = coupling::find_commit(cs.restart);
+  const std::optional<Restart> from = open_restart(cs, mark ? mark->solid_path() : cs.restart, comm_of(m));
+  if (channel) expect_fluid(cs, m);
   Progressed now;
   if (from) now = restore_model(m, *from);
   std::optional<Coupled> coupled;
-  if (channel) coupled.emplace(*channel, cs, m);
+  if (channel) {
+    const auto pair = from ? std::optional<PairRestart>({*from, *mark}) : std::nullopt;
+    coupled.emplace(*channel, cs, m, pair ? &*pair : nullptr);
+  }
   const double t_end = coupled ? coupled->t_end() : cs.run.time.end;
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
   Output out(cs, m, t_end, from ? &from->file : nullptr);
   std::optional<CheckpointClock> clock;
-  if (!coupled && !cs.solid.rigid && !cs.solid.contact) clock.emplace(cs.run.checkpoint, m.state.t, m.state.step);
+  if (!cs.solid.rigid && !cs.solid.contact) clock.emplace(cs.run.checkpoint, m.state.t, m.state.step);
   std::string status = "finished";
   try {
     double& dt = now.dt;
@@ -96,6 +100,8 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
       coupling::EqualSubsteps& sub = now.sub;
       if (sub.done()) {  // else a restored run goes on inside
         const double t_next = out.next_time(m.state.t);
+        if (coupled && clock && m.state.step > 0 && (clock->due(m.state.t, m.state.step, comm_of(m)) || coupled->checkpoint_asked()))
+          coupled->commit_with_next(write_checkpoint(cs, m, now, out, &*coupled), clock->keep());
         const double t_target =
             coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
         sub = coupling::EqualSubsteps(m.state.t, t_target);
@@ -109,7 +115,8 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
         dt = wanted_dt(cs, m, out);
         out.write_due(m);
         out.tick(m);
-        if (clock && clock->due(m.state.t, m.state.step, comm_of(m))) write_checkpoint(cs, m, now, out, clock->keep());
+        if (clock && !coupled && clock->due(m.state.t, m.state.step, comm_of(m)))
+          write_checkpoint_alone(cs, m, now, out, clock->keep());
         at_rest = is_at_rest(m);
       }
       if (coupled) coupled->end_window(m);

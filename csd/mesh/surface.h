@@ -20,6 +20,8 @@ class Surface {
   /// since the last call. Returns true if they did.
   bool update(const Mesh& mesh, const Topology& topology, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v);
 
+  /// After a restart: update()s so far, and the version that they led to.
+  void go_on_from(int64_t topo_version) { wet_.topo_version = topo_version; }
   /// Quads with normals out of the solid; face_id = elem_gid * 6 + side, node_id = node_gid. Lips follow the original
   /// faces in the order of their birth and carry face_lip.
   const coupling::WetSurface& wet() const { return wet_; }

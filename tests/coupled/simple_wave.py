@@ -88,7 +88,7 @@ for scheme, order_wanted, coarsest_wanted in ("fluid_first", None, 1e-4), ("box1
 # 10 ms, 40 times m/(rho c), nothing moves any more
 SPEED = 0.1
 for scheme, radiation in ("fluid_first", "auto"), ("box1", "always"):
-    for ratio in 0.45, 1.8, 2.0, 2.2:
+    for ratio in 1.8, 2.0:
         mass, out = 0.1, f"{OUT}/soft_{scheme}_{ratio}"
         young = (2 * math.pi / (ratio * 2e-5)) ** 2 * mass * 10e-3 / 4
         done = start(out, scheme, 2e-5, ("density = 100, young_modulus = \"1 GPa\", poisson_ratio = 0.0}",
