@@ -31,12 +31,11 @@ void on_sigterm(int) {
 
 void set_notice(const std::string& place) {
   const int next = current == 0 ? 1 : 0;
-  const auto end = fmt::format_to_n(
-      text[next], sizeof text[next] - 1,
+  const std::string words = fmt::format(
       "[{}] error: ended from outside{}: another program of this run died or was killed, or the run was "
       "cancelled [exit code {}]\n",
       program_name(), place, int(exit_killed));
-  *end.out = 0;
+  text[next][words.copy(text[next], sizeof text[next] - 1)] = 0;
   if (current.exchange(next) < 0) signal(SIGTERM, on_sigterm);
 }
 

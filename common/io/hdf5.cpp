@@ -30,8 +30,16 @@ hid_t file_type() {
 
 constexpr int64_t chunk_items = 131072, compress_above = 16384;
 
+/// The innermost entry of HDF5's stack of errors: the cause.
+herr_t note_cause(unsigned depth, const H5E_error2_t* entry, void* text) {
+  if (depth == 0 && entry->desc) *static_cast<std::string*>(text) = std::string(": ") + entry->desc;
+  return 0;
+}
+
 [[noreturn]] void failed(const std::string& path, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}: HDF5: {} failed", path, what));
+  std::string cause;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_cause, &cause);
+  throw std::runtime_error(fmt::format("{}: HDF5: {} failed{}", path, what, cause));
 }
 
 /// HDF5 prints its own stack of errors unless told not to.
@@ -210,9 +218,9 @@ std::vector<T> Group::read(const std::string& name, int64_t first, int64_t count
   return values;
 }
 
-#define BW_INSTANTIATE(T)                                                           \
-  template void Group::attribute<T>(const std::string&, std::span<const T>) const;  \
-  template std::vector<T> Group::read_attribute<T>(const std::string&) const;       \
+#define BW_INSTANTIATE(T)                                                                    \
+  template void Group::attribute<T>(const std::string&, std::span<const T>) const;           \
+  template std::vector<T> Group::read_attribute<T>(const std::string&) const;                \
   template void Group::write<T>(const std::string&, std::span<const T>, int, Packing) const; \
   template std::vector<T> Group::read<T>(const std::string&, int64_t, int64_t) const;
 BW_INSTANTIATE(double)

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/parallel/loop.h"
+#include "csd/element/lanes.h"
 #include "csd/element/q1p0.h"
 
 namespace bw::csd {
@@ -70,6 +71,52 @@ ElementResult evaluate_as(const M& material, const Corners<double>& x, double V0
   return r;
 }
 
+/// Sums over a block, Pack::size elements at a time.
+template <class M>
+StoredEnergy stored_in_block(const Elements& el, const M& material, const State& s, int body, int block) {
+  HistoryBuffer<M> buffer;
+  const double* history = s.history[size_t(body)].read(el.blocks.row_of(body, block), buffer.values);
+  constexpr int stride = M::components * lanes;
+  StoredEnergy sum;
+  for (int first = 0; first < el.blocks.used[size_t(block)]; first += Pack::size) {
+    const Modes<Pack> modes = modes_of(gather(s.x.data(), el.blocks.nodes_of(block) + first));
+    const Columns<Pack> g = columns_of(modes);
+    Points<Pack> p;
+    Pack least_det(1e300), least_squared(1e300);
+    for (int i = 0; i < 8; ++i) {
+      convect(load_sym<Pack>(history + i * stride + first), g.at(0, i), g.at(1, i), g.at(2, i), i, p);
+      least_det = min(least_det, p.det_g[i]), least_squared = min(least_squared, p.J_squared[i]);
+    }
+    inverse_sixth_roots(p.J_squared, p.root);
+    const Pack V0 = Pack::load(&s.V0[SlotId(block * lanes + first)]), volume = volume_of(modes), J_bar = volume / V0;
+    Pack elastic = V0 * material.volumetric.energy(J_bar), collapse(0), point_V0[8];
+    for (int i = 0; i < 8; ++i) {
+      const Pack iso = p.root[i] * p.root[i];
+      point_V0[i] = p.det_g[i] * iso * p.root[i];
+      elastic += point_V0[i] * Pack(1.5 * material.mu) * (iso * p.third_trace[i] - Pack(1));
+    }
+    if (any((least_squared < Pack(collapse_ratio * collapse_ratio) * J_bar * J_bar) | (least_det <= Pack(0))))
+        [[unlikely]] {
+      Columns<Pack> unused{};
+      Pack unused_stress(0);
+      collapse = collapse_guard(g, history + first, M::components, J_bar, volume, Pack(material.volumetric.kappa),
+                                unused, unused_stress);
+    }
+    for (int l = 0; l < std::min(el.blocks.used[size_t(block)] - first, Pack::size); ++l) {
+      sum.elastic += elastic[l], sum.collapse += collapse[l];
+      if constexpr (M::plastic)
+        for (int i = 0; i < 8; ++i) {
+          const double *at_point = history + i * stride + first + l, work = material.plastic_work(at_point);
+          sum.plastic += point_V0[i][l] * work;
+          if (material.heat.specific_heat > 0) sum.heat += point_V0[i][l] * material.heat.taylor_quinney * work;
+          sum.eqps_max = std::max(sum.eqps_max, at_point[6 * lanes]);
+          sum.temperature_max = std::max(sum.temperature_max, material.temperature(at_point));
+        }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 double von_mises(const Sym3& sigma) {
@@ -104,20 +151,15 @@ Corners<double> element_force(const Elements& el, const State& s, SlotId slot) {
 }
 
 StoredEnergy stored_energy(const Elements& el, const State& s) {
-  return reduce_elements(
-      el, StoredEnergy{},
-      [&](SlotId slot) {
-        const ElementResult r = evaluate(el, s, slot);
-        return StoredEnergy{r.elastic, r.plastic, r.heat, r.collapse, r.eqps_max, r.temperature_max};
-      },
-      [](const StoredEnergy& a, const StoredEnergy& b) {
-        return StoredEnergy{a.elastic + b.elastic,
-                            a.plastic + b.plastic,
-                            a.heat + b.heat,
-                            a.collapse + b.collapse,
-                            std::max(a.eqps_max, b.eqps_max),
-                            std::max(a.temperature_max, b.temperature_max)};
-      });
+  std::vector<StoredEnergy> of_blocks(size_t(el.blocks.block_count()));
+  for_blocks(el.blocks, [&](int block, int body) {
+    of_blocks[size_t(block)] =
+        std::visit([&](const auto& m) { return stored_in_block(el, m, s, body, block); }, el.materials[size_t(body)]);
+  });
+  if (el.ranks) el.ranks->complete_blocks(of_blocks);
+  StoredEnergy all;
+  for (const StoredEnergy& e : of_blocks) all.add(e);
+  return all;
 }
 
 bool heats(const Elements& el, int body) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What elements bear and store, evaluated on demand from positions and history (nothing is committed).
 #pragma once
+#include <algorithm>
+
 #include "csd/element/elements.h"
 #include "csd/element/hex.h"
 
@@ -31,6 +33,11 @@ Corners<double> element_force(const Elements& elements, const State& s, SlotId s
 struct StoredEnergy {
   double elastic = 0, plastic = 0, heat = 0, collapse = 0;
   double eqps_max = 0, temperature_max = 0;
+
+  void add(const StoredEnergy& e) {
+    elastic += e.elastic, plastic += e.plastic, heat += e.heat, collapse += e.collapse;
+    eqps_max = std::max(eqps_max, e.eqps_max), temperature_max = std::max(temperature_max, e.temperature_max);
+  }
 };
 /// Of all elements.
 StoredEnergy stored_energy(const Elements& elements, const State& s);

@@ -54,7 +54,10 @@ class Ranks {
   template <class T, class Value>
   std::vector<T> complete_some(const std::vector<char>& is_asked, const Value& value) const;
   /// [block] likewise.
-  void complete_blocks(std::vector<double>& of_blocks) const { complete(blocks_, of_blocks.data(), 1); }
+  template <class T>
+  void complete_blocks(std::vector<T>& of_blocks) const {
+    complete(blocks_, reinterpret_cast<double*>(of_blocks.data()), sizeof(T) / sizeof(double));
+  }
   /// The value that the owner of an element has.
   template <class T>
   T from_owner(const Blocks& blocks, ElemId e, const T& value) const {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cracks and pieces: C10m (Mott's sizes on a bursting cylinder), C12f (the weapon under eq 18), S10 (pieces against mesh size), T11, T12, T21."""
+"""Cracks and pieces: C10m (Mott's sizes on a bursting cylinder), C10w (the weapon's pieces by seed and mesh), C12f (the weapon under eq 18), S10 (pieces against mesh size), T11, T12, T21."""
 import sys
 
 import numpy as np
@@ -10,6 +10,7 @@ from .solid import PAPER_STEEL, j2
 
 sys.path.insert(0, str(ROOT / "run"))
 import fields  # noqa: E402
+import fragments  # noqa: E402
 import pieces  # noqa: E402
 
 MOTT = 'pieces = {kind = "mott", seed = SEED, exempt = EXEMPT}\n'
@@ -101,6 +102,33 @@ def c12f():
         table = fields.history(result.directory / "solid_history.csv")
         yield at_most(f"{name}: mass lost", np.abs(table["mass"] / table["mass"][0] - 1).max(), 1e-13)
         yield at_most(f"{name}: energy residual over external work", np.abs(table["energy_residual"][-1]) / table["external_work"][-1], 0.01)
+
+
+@case("C10w")
+def c10w():
+    """Statistics of the weapon's pieces by Mott's option under the front of eq (18): three seeds, demo size and the paper's; rings, masses, speeds"""
+    found = {}
+    for size in ("demo", "paper"):
+        for seed in (1, 2, 3):
+            text = front(f'size = "{size}"', True, 400e-6).replace("seed = 1", f"seed = {seed}") + '[solid.rigid]\nelements = 2000\nage = "10 us"\nevery = 20\n'
+            result = run(f"C10w_{size}_{seed}", text, only="solid")
+            name, solid = f"{size}, seed {seed}", fields.Solid(fields.series(result.directory, "solid")[-1][1])
+            rows = pieces.rows_of(result.directory, solid)
+            yield at_most(f"{name}: worst ring, bins against 2 pi r/x0, where the mesh has the elements",
+                          np.abs(rows["bins"] - 2 * np.pi * rows["radius"] / rows["width"])[rows["elements_across"] >= 1].max(), 1, result.seconds)
+            f = found[size, seed] = fragments.statistics(result.directory, elements=2, pictures=False)
+            masses = np.cumsum(fields.history(result.directory / "fragments.csv")["mass"])[-1]
+            yield near(f"{name}: mass of all pieces over the body's", masses / fields.history(result.directory / "solid_history.csv")["mass"][0] - 1, 0.0, 1e-12)
+            yield at_least(f"{name}: pieces (reported)", f["pieces"], 1)
+            yield at_least(f"{name}: Mott's mu of pieces of two elements and more [g] (reported)", 1e3 * f["mott"]["mu"], 0.0)
+        of_size = [found[size, seed] for seed in (1, 2, 3)]
+        for what, value, band in (("pieces", lambda f: f["pieces"], 0.1), ("mean mass", lambda f: f["mean_mass"], 0.1), ("Mott's mu", lambda f: f["mott"]["mu"], 0.25),
+                                  ("mean speed over the mass", lambda f: f["speed_mean_over_mass"], 0.01)):
+            values = [value(f) for f in of_size]
+            yield at_most(f"{size}: spread of three seeds, {what}, largest over smallest - 1", max(values) / min(values) - 1, band)
+    mean = {size: {key: np.mean([found[size, seed][key] for seed in (1, 2, 3)]) for key in ("pieces", "speed_mean_over_mass")} for size in ("demo", "paper")}
+    yield close("mean speed over the mass, demo size against the paper's", mean["demo"]["speed_mean_over_mass"], mean["paper"]["speed_mean_over_mass"], 0.03)
+    yield at_least("pieces, demo size over the paper's (reported; x0 spans about one element there)", mean["demo"]["pieces"] / mean["paper"]["pieces"], 0.0)
 
 
 @case("S10")
