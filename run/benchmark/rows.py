@@ -254,6 +254,19 @@ def moving_sphere_overhead():
     return [row("moving_sphere_overhead", seconds[1] / seconds[0] - 1, "of the run without it")]
 
 
+def geometry_share_200k():
+    """Two balls of 98,304 quads each moving through 216^3 cells, all busy: share of the step in cutting the grid and in covered and uncovered cells"""
+    air = fluid.material("air", reference.GAS)
+    balls = "".join(f'[[fluid.body]]\nname = "ball{i}"\nfacet = 1e-4\nshape = {{kind = "sphere", centre = [{x}, 0.5, 0.5], radius = 0.2}}\n'
+                    f'motion = {{kind = "velocity", value = [{v}, 20.0, 10.0]}}\n' for i, (x, v) in enumerate(((0.25, 30.0), (0.75, -30.0))))
+    rows = []
+    for threads in THREADS:
+        timers = fields.summary(run(f"bench_balls_{threads}", cube(216, 6, air, busy("air", 1.2)) + balls, threads=threads, only="fluid").directory, "fluid")["timers"]
+        geometry = timers["walls"]["seconds"] + timers["covered and uncovered cells"]["seconds"]
+        rows.append(row("geometry_share_200k", geometry / (geometry + timers["flow"]["seconds"]), "of the step", threads))
+    return rows
+
+
 # --- coupling ---------------------------------------------------------------------------------------------------------------------------
 def exchange(faces):
     build("bench_exchange")
@@ -286,4 +299,4 @@ def exchange_200k_ms():
 
 
 GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share, amr_overhead],
-          "wall": [moving_sphere_overhead], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS}
+          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS}
