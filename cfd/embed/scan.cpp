@@ -113,22 +113,27 @@ class LineScan {
   std::vector<Crossing>& out_;
 };
 
-std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g, int d) {
+/// Of faces [first, last), unsorted.
+std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g, int d, size_t first, size_t last) {
   std::vector<Crossing> out;
   const LineScan lines(g, d, out);
-  for (size_t f = 0; f < s.quads.size(); ++f) {
+  for (size_t f = first; f < last; ++f) {
     const auto& q = s.quads[f];
     const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
                     !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
     for_each_triangle(
         s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) { lines(face, a, b, c, corner); });
   }
-  std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) {
+  return out;
+}
+
+/// By line and along it.
+void sort(std::vector<Crossing>& crossings) {
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     if (a.line != b.line) return a.line < b.line;
     if (a.i != b.i) return a.i < b.i;
     return a.at != b.at ? a.at < b.at : a.face < b.face;
   });
-  return out;
 }
 
 /// body(first, last) for each run of crossings with equal key.
@@ -162,8 +167,20 @@ int winding(const Crossing& x) { return x.thin ? 0 : x.up ? -1 : 1; }
 bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& map) {
   map.clear(lattice);
   std::vector<Crossing> found[3];
+  constexpr size_t chunk = 4096;
+  const size_t faces = surface.quads.size(), chunks = (faces + chunk - 1) / chunk;
+  std::vector<std::vector<Crossing>> part(3 * chunks);
+  parallel_for_dynamic(int64_t(part.size()), [&](int64_t i) {
+    const int d = int(size_t(i) / chunks);
+    const size_t first = size_t(i) % chunks * chunk;
+    if (lattice.active(d) || d == 0) part[size_t(i)] = crossings(surface, lattice, d, first, std::min(first + chunk, faces));
+  });
   parallel_for_dynamic(3, [&](int64_t d) {
-    if (lattice.active(int(d)) || d == 0) found[d] = crossings(surface, lattice, int(d));
+    for (size_t i = 0; i < chunks; ++i) {
+      const auto& p = part[size_t(d) * chunks + i];
+      found[d].insert(found[d].end(), p.begin(), p.end());
+    }
+    sort(found[d]);
   });
   auto line_of = [](const Crossing& x) { return x.line; };
   bool watertight = true;
