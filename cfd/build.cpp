@@ -38,7 +38,13 @@ Medium make_medium(const Case& cs) {
     names.push_back(m.name);
     eos.push_back(for_run(cs, m));
   }
-  return Medium(names, eos, cs.fluid.scheme.floors);
+  Medium medium(names, eos, cs.fluid.scheme.floors);
+  if (cs.fluid.scheme.interface == "sharp" && medium.count() == 2) {
+    medium.interface.sharpness = cs.fluid.scheme.sharpness;
+    medium.interface.heaviest = 2;
+    for (int m = 0; m < 2; ++m) medium.interface.is_gas[m] = medium.is_gas[m], medium.interface.Pi_gas[m] = medium.gas[m].Pi;
+  }
+  return medium;
 }
 
 /// Conserved state of a cell full of one material.

@@ -175,6 +175,10 @@ void FluidCase::check(Keys& k) const {
       throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
   if (afterburn) check_afterburn();
+  if (scheme.interface == "sharp" && !body.empty())
+    throw InputError(fmt::format("{}: expected \"smooth\" beside bodies: their walls reconstruct by lines", scheme.place));
+  if (scheme.interface == "sharp" && std::all_of(material.begin(), material.end(), [](const auto& m) { return std::holds_alternative<Jwl>(*m.eos); }))
+    throw InputError(fmt::format("{}: expected \"smooth\": sharp interfaces need a gas or a stiffened gas on one side", scheme.place));
   if (grid.geometry != Geometry::planar) check_radial(k);
   if (start_from && !burn.empty()) k.fail("start_from", "no [[fluid.burn]] beside start_from: the profile is burnt, and nothing else burns yet");
   if (start_from && grid.geometry != Geometry::planar && norm(start_from->centre) > 0)

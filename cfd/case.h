@@ -238,8 +238,15 @@ struct SchemeCase {
   double cfl = 0.9;
   bool skip_quiet = true;
   Floors floors;
+  std::string interface = "smooth", place;
+  double sharpness = 1.6;
   template <class K>
   void describe(K& k) {
+    k.choice("interface", interface, {"smooth", "sharp"},
+             "between two materials: smooth: limited lines, as everything else; sharp: THINC, two to three cells wide");
+    k.optional("sharpness", sharpness, dim::none, "of sharp interfaces, from 1 (wider) to 3");
+    k.expect(sharpness >= 1 && sharpness <= 3, "sharpness", "a number from 1 to 3");
+    place = k.where("interface");
     k.optional("cfl", cfl, dim::none, "of sum_d (|v_d| + c) dt/h_d, at most 0.9");
     k.optional("skip_quiet", skip_quiet, "leave out blocks in which nothing can happen; the results are the same bits");
     k.optional("density_floor", floors.rho, dim::density, "a lower density is a failed step");

@@ -33,6 +33,8 @@ struct Medium {
   Floors floors;
   bool is_gas[2] = {false, false};  ///< material 1, 2: its Pi is constant, gas[] holds alone
   GasFlow gas[2]{};
+  Interface interface{};  ///< how cells of both materials are reconstructed
+  MixedFlow mixed() const { return {closure, interface}; }
 };
 
 /// GasPrim of one gas. Returns p before the lift.

@@ -149,6 +149,8 @@ coupling::FluidTotals totals_of(const Model& m, const Books& books) {
 
 /// The fluid leads: it takes one step towards the solid's limit and tells the solid how far it came.
 int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
+  if (cs.fluid.scheme.interface == "sharp")
+    throw InputError(fmt::format("{}: expected \"smooth\" in a coupled run: walls reconstruct by lines", cs.fluid.scheme.place));
   if (!cs.fluid.body.empty()) throw InputError(fmt::format("{}: fluid.body: bodies are for runs of cfd alone; the solid program gives the surface here", cs.file));
   std::optional<coupling::CommitMark> mark;
   if (!cs.restart.empty()) mark = coupling::find_commit(cs.restart);

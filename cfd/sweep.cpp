@@ -155,7 +155,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   } else if (is_gas_block)
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
-    space.mixed->advance(patch, MixedFlow{setup_.medium.closure}, dt_, change);
+    space.mixed->advance(patch, setup_.medium.mixed(), dt_, change);
   if (near_[size_t(block)] == near) in.blocked = meet_walls(block, space);
   if (change.keep_sides) match_levels(block, space);
   in.others_hold = m != 0 && gas_before_[size_t(block)] == m;

@@ -121,12 +121,45 @@ class BlockKernel {
       }
       const auto scaled = keep_faces_positive(*flow_, mean, half, slope);
       if (inside && any(scaled)) count_scaled(scaled, i);
+      if constexpr (Flow::mixed)
+        if (flow_->interface.sharpness > 0 && any(min(mean[Prim::alpha1], T(1) - mean[Prim::alpha1]) > T(Interface::least))) {
+          sharp_faces(W_row[Prim::alpha1] + i, step, mean, half, slope, half_lambda, Lane<T>::load(dPi + i),
+                      order ? Lane<T>::load(order + i) : T(1), wanted, i);
+          continue;
+        }
       for (int d = 0; d < 3; ++d)
         if (wanted[d])
           for (int q = 0; q < n; ++q) {
             Lane<T>::store(minus[d] + q * pitch + i, half[q] - T(0.5) * slope[d][q]);
             Lane<T>::store(plus[d] + q * pitch + i, half[q] + T(0.5) * slope[d][q]);
           }
+    }
+  }
+  /// The same with an interface in one of the cells at i; a: their alpha1; order: 0 where they are first order.
+  void sharp_faces(const double* a, const ptrdiff_t (&step)[3], const T (&mean)[n], const T (&half)[n],
+                   const T (&slope)[3][n], const T (&half_lambda)[3], T dPi, T order, const bool (&wanted)[3], int i) {
+    T div(0), rise[3], steepest(1e-300);
+    for (int d = 0; d < 3; ++d) {
+      div = div + half_lambda[d] * slope[d][Flow::v + d];
+      rise[d] = abs(Lane<T>::load(a + step[d]) - Lane<T>::load(a - step[d])) * half_lambda[d];  // ~ d alpha/dx_d
+      steepest = steepest + rise[d] * rise[d];
+    }
+    const T over_norm = T(flow_->interface.sharpness) / sqrt(steepest);
+    const SharpCell<T> cell(flow_->interface, mean, div, dPi);
+    for (int d = 0; d < 3; ++d) {
+      if (!wanted[d]) continue;
+      T low[n], high[n];
+      for (int q = 0; q < n; ++q) {
+        low[q] = half[q] - T(0.5) * slope[d][q];
+        high[q] = half[q] + T(0.5) * slope[d][q];
+      }
+      const T lambda = half_lambda[d] + half_lambda[d];
+      sharpen(cell, Lane<T>::load(a - step[d]), Lane<T>::load(a + step[d]), rise[d] * over_norm + T(0.01),
+              lambda * low[Flow::v + d], lambda * high[Flow::v + d], order > T(0), low, high);
+      for (int q = 0; q < n; ++q) {
+        Lane<T>::store(face(minus_[d], q) + i, low[q]);
+        Lane<T>::store(face(plus_[d], q) + i, high[q]);
+      }
     }
   }
   void count_scaled(Mask m, int i) {

@@ -3,6 +3,7 @@
 #pragma once
 #include "cfd/scheme/half_step.h"
 #include "cfd/scheme/hllc.h"
+#include "cfd/scheme/interface.h"
 
 namespace bw::cfd {
 
@@ -11,6 +12,7 @@ struct MixedFlow {
   static constexpr int n = Prim::count, n_flux = Cons::count, v = Prim::v, p = Prim::p;
   static constexpr bool mixed = true;
   Closure closure;
+  Interface interface{};
 
   int prim_row(int q) const { return q; }
   int cons_row(int q) const { return q; }
@@ -21,7 +23,7 @@ struct MixedFlow {
   }
   template <int axis, class T>
   T flux(const T (&L)[n], const T (&R)[n], const Sound<T>& sound_L, const Sound<T>& sound_R, T (&F)[n_flux]) const {
-    return hllc<axis>(L, R, sound_L, sound_R, closure, F);
+    return hllc<axis>(L, R, sound_L, sound_R, closure, interface.heaviest, F);
   }
 };
 

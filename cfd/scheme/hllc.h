@@ -29,10 +29,11 @@ struct Sound {
 
 /// Density that sets the strength of a side's waves, rho c. It has to go with the stiffness rho c^2 of its cell: in a
 /// cell with some air in dense explosive the face may be a thousand times lighter than the mean, and any noise would
-/// grow.
+/// grow. Where faces of light cells may be heavy (sharp interfaces), heaviest limits them likewise, over the cell's
+/// rho.
 template <class T>
-T strength(T rho_face, const Sound<T>& cell) {
-  return max(rho_face, T(0.5) * cell.rho);
+T strength(T rho_face, const Sound<T>& cell, double heaviest) {
+  return min(max(rho_face, T(0.5) * cell.rho), heaviest * cell.rho);
 }
 
 /// from_left is set to the mask "upwind is left". Davis' wave speeds with the cells' sound speeds.
@@ -55,14 +56,16 @@ template <class T, class M>
 
 /// Flux of two materials through a face normal to `axis`; returns the face velocity that the alpha equation needs:
 /// d alpha/dt = -(F[alpha1]_+ - F[alpha1]_-)/h + alpha (v_f+ - v_f-)/h.
-/// L, R: Prim states at the face.
+/// L, R: Prim states at the face; heaviest: see strength().
 template <int axis, class T>
 [[gnu::always_inline]] inline T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sound_L,
-                                     const Sound<T>& sound_R, const Closure& closure, T (&F)[Cons::count]) {
+                                     const Sound<T>& sound_R, const Closure& closure, double heaviest,
+                                     T (&F)[Cons::count]) {
   constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
   decltype(L[0] >= R[0]) left;
-  const Waves<T> w = waves<T>({strength(L[Prim::arho1] + L[Prim::arho2], sound_L), L[n], L[Prim::p], sound_L.c},
-                              {strength(R[Prim::arho1] + R[Prim::arho2], sound_R), R[n], R[Prim::p], sound_R.c}, left);
+  const Waves<T> w =
+      waves<T>({strength(L[Prim::arho1] + L[Prim::arho2], sound_L, heaviest), L[n], L[Prim::p], sound_L.c},
+               {strength(R[Prim::arho1] + R[Prim::arho2], sound_R, heaviest), R[n], R[Prim::p], sound_R.c}, left);
   T q[Prim::count];
   for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
   const T rho = q[Prim::arho1] + q[Prim::arho2];

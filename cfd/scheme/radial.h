@@ -131,9 +131,21 @@ class RadialKernel {
       if (any(scaled))
         for (int l = 0; l < w; ++l) change.scaled_cells += bit(scaled, l) && i + l >= 0 && i + l < cells_;
       const T back = shell(ShellRow::back, i), ahead = shell(ShellRow::ahead, i);
+      T low[n], high[n];
       for (int q = 0; q < n; ++q) {
-        Lane<T>::store(face(minus_, q) + i, half[q] - back * slope[0][q]);
-        Lane<T>::store(face(plus_, q) + i, half[q] + ahead * slope[0][q]);
+        low[q] = half[q] - back * slope[0][q];
+        high[q] = half[q] + ahead * slope[0][q];
+      }
+      if constexpr (Flow::mixed)
+        if (flow.interface.sharpness > 0) {
+          const double* a = W[Prim::alpha1] + i;
+          const SharpCell<T> cell(flow.interface, mean, k[0] * slope[0][Flow::v] / reach + spread, dPi);
+          sharpen(cell, Lane<T>::load(a - 1), Lane<T>::load(a + 1), T(flow.interface.sharpness), T(lambda) * low[Flow::v],
+                  T(lambda) * high[Flow::v], (order ? Lane<T>::load(order + i) : T(1)) > T(0), low, high);
+        }
+      for (int q = 0; q < n; ++q) {
+        Lane<T>::store(face(minus_, q) + i, low[q]);
+        Lane<T>::store(face(plus_, q) + i, high[q]);
       }
     }
   }

@@ -142,6 +142,8 @@ CASES = {
     "afterburn of no known energy": ("cfd", FLUID + '[[fluid.material]]\nname = "C-4"\nlibrary = "C-4"\n[fluid.afterburn]\nmaterial = "C-4"\nend = 1\n', r"energy", {}),
     "miller without a rate": ("cfd", FLUID + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[fluid.afterburn]\nmaterial = "TNT"\nkind = "miller"\n', r"rate", {}),
     "afterburn before the burn is over": ("cfd", FLUID + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "TNT"\nunburnt = true\npressure = 101325\n' + BURN + '[fluid.afterburn]\nmaterial = "TNT"\nbegin = "1 us"\nend = 1\n', r"end of the programmed burn", {}),
+    "sharp interface beside a body": ("cfd", FLUID.replace("[fluid]", '[fluid]\nscheme = {interface = "sharp"}') + '[[fluid.body]]\nname = "ball"\nshape = {kind = "sphere", centre = [0.08, 0, 0], radius = 0.02}\n', r"beside bodies", {}),
+    "sharpness of nothing": ("cfd", FLUID.replace("[fluid]", '[fluid]\nscheme = {interface = "sharp", sharpness = 0}'), r"from 1 to 3", {}),
     "start from nowhere": ("cfd", FLUID + '[fluid.start_from]\nfile = "nowhere.h5"\n', r"nowhere\.h5", {}),
     "start from another file": ("cfd", FLUID + '[fluid.start_from]\nfile = "a.inp"\n', r"profile", {"a.inp": INP}),
     "burn without light": ("cfd", FLUID + '[[fluid.burn]]\nmaterial = "air"\n', r"points.*at least one point, line or plane", {}),

@@ -54,7 +54,7 @@ TEST(Flux, ConsistentWithTheEquations) {
     Faces f = random_faces(seed);
     double expected[Cons::count];
     physical_flux(f.L, expected);
-    const double v = hllc<0>(f.L, f.L, f.left, f.left, closure_of_two, f.F);
+    const double v = hllc<0>(f.L, f.L, f.left, f.left, closure_of_two, 1e30, f.F);
     EXPECT_NEAR(v, f.L[Prim::v], 1e-15);
     for (int q = 0; q < Cons::count; ++q) EXPECT_NEAR(f.F[q], expected[q], 1e-13) << q;
   }
@@ -65,8 +65,8 @@ TEST(Flux, MirrorImage) {
     Faces f = random_faces(seed), m = f;
     std::swap(m.L, m.R), std::swap(m.left, m.right);
     m.L[Prim::v] *= -1, m.R[Prim::v] *= -1;
-    hllc<0>(f.L, f.R, f.left, f.right, closure_of_two, f.F);
-    hllc<0>(m.L, m.R, m.left, m.right, closure_of_two, m.F);
+    hllc<0>(f.L, f.R, f.left, f.right, closure_of_two, 1e30, f.F);
+    hllc<0>(m.L, m.R, m.left, m.right, closure_of_two, 1e30, m.F);
     for (int q = 0; q < Cons::count; ++q) EXPECT_NEAR(m.F[q], (q == Cons::mom ? 1 : -1) * f.F[q], 1e-12) << q;
   }
 }
@@ -76,7 +76,7 @@ TEST(Flux, SupersonicIsUpwind) {
   f.L[Prim::v] = 9, f.R[Prim::v] = 8;
   double expected[Cons::count];
   physical_flux(f.L, expected);
-  hllc<0>(f.L, f.R, f.left, f.right, closure_of_two, f.F);
+  hllc<0>(f.L, f.R, f.left, f.right, closure_of_two, 1e30, f.F);
   for (int q = 0; q < Cons::count; ++q)
     EXPECT_EQ(f.F[q] == expected[q] || std::abs(f.F[q] - expected[q]) < 1e-13, true) << q;
 }
@@ -85,7 +85,7 @@ TEST(Flux, ContactAtRestIsExactlyStill) {
   Faces f = random_faces(5);
   for (int d = 0; d < 3; ++d) f.L[Prim::v + d] = f.R[Prim::v + d] = 0;
   f.L[Prim::p] = f.R[Prim::p] = 101325;
-  EXPECT_EQ((hllc<1>(f.L, f.R, f.left, f.right, closure_of_two, f.F)), 0);
+  EXPECT_EQ((hllc<1>(f.L, f.R, f.left, f.right, closure_of_two, 1e30, f.F)), 0);
   for (int q = 0; q < Cons::count; ++q) EXPECT_EQ(f.F[q], q == Cons::mom_y ? 101325 : 0) << q;
 }
 
@@ -94,8 +94,8 @@ TEST(Flux, AxesAreRotations) {
   Faces x = f, y = f;
   for (int d = 0; d < 3; ++d)
     y.L[Prim::v + (d + 1) % 3] = f.L[Prim::v + d], y.R[Prim::v + (d + 1) % 3] = f.R[Prim::v + d];
-  hllc<0>(x.L, x.R, x.left, x.right, closure_of_two, x.F);
-  hllc<1>(y.L, y.R, y.left, y.right, closure_of_two, y.F);
+  hllc<0>(x.L, x.R, x.left, x.right, closure_of_two, 1e30, x.F);
+  hllc<1>(y.L, y.R, y.left, y.right, closure_of_two, 1e30, y.F);
   for (int d = 0; d < 3; ++d) EXPECT_EQ(y.F[Cons::mom + (d + 1) % 3], x.F[Cons::mom + d]);
   EXPECT_EQ(y.F[Cons::rhoE], x.F[Cons::rhoE]);
 }
@@ -151,6 +151,7 @@ TEST_P(KernelShape, PackIsAsDouble) {
     }
   };
   compare(MixedFlow{closure_of_two});
+  compare(MixedFlow{closure_of_two, Interface{1.6, {0, 0.1}, {false, true}, 2}});
   compare(GasFlow{2.5, 0.1, Prim::arho2});
 }
 INSTANTIATE_TEST_SUITE_P(Shapes, KernelShape,
@@ -178,6 +179,18 @@ TEST(Kernel, UniformFlowDoesNotChange) {
         for (int i = 0; i < 8; ++i)
           EXPECT_NEAR(change.row(q, k, j)[i], 0, q == Cons::rhoE ? 1e-8 : 1e-10)
               << q;  // of 1e7 and 1e5 that pass through
+}
+
+TEST(Interface, CurveHasTheCellsMean) {
+  for (const double alpha : {0.001, 0.2, 0.5, 0.97})
+    for (const double rising : {-1.0, 1.0})
+      for (const double b : {0.02, 0.5, 1.6, 3.0}) {
+        const SharpCurve<double> whole(alpha, rising, b, 1, 1), parts(alpha, rising, b, 0.3, 0.7);
+        EXPECT_NEAR(whole.at_low, alpha, 1e-11);
+        EXPECT_NEAR(whole.at_high, alpha, 1e-11);
+        EXPECT_NEAR(0.3 * parts.at_low + 0.7 * parts.at_high, alpha, 1e-11);
+        EXPECT_GE(rising * (parts.at_high - parts.at_low), 0);
+      }
 }
 
 TEST(Positivity, FacesStayAboveTheirShare) {
