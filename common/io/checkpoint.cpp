@@ -122,6 +122,7 @@ CheckpointWriter::CheckpointWriter(const std::string& path, const CheckpointHead
 }
 
 void CheckpointWriter::finish() {
+  file_->finish();
   file_.reset();
   comm_.barrier();
   if (comm_.root()) rename_finished(path_ + ".tmp", path_);

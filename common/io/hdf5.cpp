@@ -62,6 +62,8 @@ void Group::check(herr_t status, const std::string& what) const {
   if (status < 0) failed(shared_->path, what);
 }
 
+void File::finish() const { root_.check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "writing it to its end"); }
+
 Handle Group::transfer() const {
   Handle list = owned(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "making a transfer list");
   if (shared_->comm.size() > 1) check(H5Pset_dxpl_mpio(list.get(), H5FD_MPIO_COLLECTIVE), "collective transfer");

@@ -102,6 +102,9 @@ class File {
   static File create(const std::string& path, const Comm& comm = {});
   static File open(const std::string& path, const Comm& comm = {});  ///< read only
   Group root() const { return root_; }
+  /// All that was written is with the system; std::runtime_error if it isn't (a full disk), which closing alone doesn't
+  /// tell. Collective.
+  void finish() const;
 
  private:
   File(Handle file, Group root) : file_(std::move(file)), root_(std::move(root)) {}

@@ -52,6 +52,7 @@ void write_whole(const std::string& path, const Comm& comm, const Write& write) 
   {
     const h5::File file = h5::File::create(temporary, comm);
     write(file);
+    file.finish();
   }
   comm.barrier();
   if (comm.root()) rename_finished(temporary, path);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exact solutions, made here from first principles and independent of the programs: Riemann problems of Mie-Grueneisen gases, pistons,
 detonation waves, the ring, and the impulse of a travelling front. SI units; pressure positive in compression."""
+import collections
 import math
 
 import numpy as np
@@ -237,6 +238,47 @@ def gas_column_modes(m, k, count=4, length=1.0, rho=1.225, p=101325.0, gamma=1.4
             modes.append(0.5 * (low + high) / (2 * math.pi))
         w += step
     return modes
+
+
+Gas = collections.namedtuple("Gas", "rho p u c")
+
+
+def air_sound(rho=1.225, p=101325.0, gamma=1.4):
+    return math.sqrt(gamma * p / rho)
+
+
+def shock_state(M, rho=1.225, p=101325.0, gamma=1.4):
+    """Behind a shock of M into gas at rest [Toro, 3.1.3]."""
+    ratio = 1 + 2 * gamma / (gamma + 1) * (M * M - 1)
+    rho2 = rho * (gamma + 1) * M * M / ((gamma - 1) * M * M + 2)
+    return Gas(rho2, p * ratio, 2 / (gamma + 1) * (M - 1 / M) * air_sound(rho, p, gamma), math.sqrt(gamma * p * ratio / rho2))
+
+
+def reflected_state(M, rho=1.225, p=101325.0, gamma=1.4):
+    """Behind the shock that a fixed wall sends back (VALIDATION C3: M = 2 gives 15 p): the reflected shock stops the gas, so its Mach number R before
+    the gas behind the first one has R - 1/R = (gamma + 1) u2 / (2 c2)."""
+    two = shock_state(M, rho, p, gamma)
+    half = (gamma + 1) * two.u / (4 * two.c)
+    back = shock_state(half + math.sqrt(half * half + 1), two.rho, two.p, gamma)
+    return Gas(back.rho, back.p, 0.0, back.c)
+
+
+def neo_hooke_under_shock(pressure, impedance, rho, young):
+    """Speeds of the front and then of the free back of a slab (uniaxial strain, nu = 0, tau = kappa/2 (J^2 - 1) + mu dev b_bar) that gas with
+    pressure - impedance u hits at once: a shock in the slab, u^2 = -P (1 - stretch)/rho; the back gains what unloading from there gives,
+    the integral of sqrt(P'/rho) over the stretch."""
+    kappa, mu = young / 3, young / 2
+
+    def P(s):  # nominal stress
+        return (kappa / 2 * (s * s - 1) + 2 / 3 * mu * s ** (-2 / 3) * (s * s - 1)) / s
+    low, high = 0.3, 1.0
+    for _ in range(80):
+        s = 0.5 * (low + high)
+        low, high = (s, high) if -P(s) > pressure - impedance * math.sqrt(-P(s) * (1 - s) / rho) else (low, s)
+    u = math.sqrt(-P(s) * (1 - s) / rho)
+    n = 2000
+    steps = [s + (1 - s) * (i + 0.5) / n for i in range(n)]
+    return u, u + sum(math.sqrt((P(a + 1e-6) - P(a - 1e-6)) / 2e-6 / rho) for a in steps) * (1 - s) / n
 
 
 def free_piston(t, mass, rho0=1.225, p0=101325.0, gamma=1.4):
