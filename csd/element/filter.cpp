@@ -20,23 +20,27 @@ bool is_rigid(const State& s, int block) {
   return true;
 }
 
-/// v_e / V_e at s.x; `skips`: but of rigid bodies.
-void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J, bool skips) {
+/// v_e / V_e at s.x of Pack::size elements.
+Pack volume_ratio(const Elements& el, const State& s, int block, int first) {
+  return volume_of(modes_of(gather(s.x.data(), el.blocks.nodes_of(block) + first))) /
+         Pack::load(&s.V0[SlotId(block * lanes + first)]);
+}
+const Volumetric& volumetric_of_body(const Elements& el, int body) {
+  return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(body)]);
+}
+const Volumetric& volumetric_of(const Elements& el, SlotId slot) { return volumetric_of_body(el, el.body_of(slot)); }
+
+/// v_e / V_e at s.x, of all elements.
+void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J) {
   for_blocks(el.blocks, [&](int block, int) {
-    if (skips && is_rigid(s, block)) return;
-    for (int l = 0; l < lanes; l += Pack::size) {
-      const SlotId slot(block * lanes + l);
-      const Pack v = volume_of(modes_of(gather(s.x.data(), el.blocks.nodes_of(block) + l)));
-      (v / Pack::load(&s.V0[slot])).store(&J[slot]);
-    }
+    for (int l = 0; l < lanes; l += Pack::size) volume_ratio(el, s, block, l).store(&J[SlotId(block * lanes + l)]);
   });
 }
 
 /// U'(J) of each element's material [Pa].
 void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<double, SlotId>& sigma) {
   for_blocks(el.blocks, [&](int block, int body) {
-    const Volumetric& U =
-        std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; }, el.materials[size_t(body)]);
+    const Volumetric& U = volumetric_of_body(el, body);
     for (int l = 0; l < lanes; l += Pack::size) {
       const SlotId slot(block * lanes + l);
       U.mean_stress(Pack::load(&J[slot])).store(&sigma[slot]);
@@ -44,16 +48,34 @@ void mean_stresses(const Elements& el, const Field<double, SlotId>& J, Field<dou
   });
 }
 
-/// Nodal sums of what elements have; `skips`: but of rigid bodies.
-void nodal_sums(const Elements& el, const State& s, const Field<double, SlotId>& a, Field<double, NodeId>& sum,
-                bool skips) {
-  s.for_nodes([&](NodeId n) { sum[n] = 0; });
-  for_coloured_blocks(el.blocks, [&](int block, int) {
+/// Nodal sums of what fill(block, body, first) leaves in `addends`, Pack::size elements from `first` on; `skips`: but
+/// of rigid bodies. sum: zero before.
+template <class Fill>
+void add_to_nodes(const Elements& el, const State& s, bool skips, const Field<double, SlotId>& addends,
+                  Field<double, NodeId>& sum, const Fill& fill) {
+  for_coloured_blocks(el.blocks, [&](int block, int body) {
     if (skips && is_rigid(s, block)) return;
+    for (int l = 0; l < lanes; l += Pack::size) fill(block, body, l);
     add_to_corners(
-        el.blocks, block, [&](int, int l) { return a[SlotId(block * lanes + l)]; }, sum);
+        el.blocks, block, [&](int, int l) { return addends[SlotId(block * lanes + l)]; }, sum);
   });
   el.finish_sum(sum);
+}
+
+/// Sum over an element's nodes, of Pack::size elements.
+Pack sum_over_corners(const Field<double, NodeId>& a, const int32_t* nodes) {
+  const auto at = [&](int c) {
+    Pack r;
+    for (int l = 0; l < Pack::size; ++l) r.set(l, a[NodeId(nodes[c * lanes + l])]);
+    return r;
+  };
+  return ((at(0) + at(1)) + (at(2) + at(3))) + ((at(4) + at(5)) + (at(6) + at(7)));
+}
+
+/// Stores `now`, but elements of rigid bodies keep what they have.
+void store_deformable(const State& s, bool skips, SlotId slot, Pack now, Field<double, SlotId>& out) {
+  if (skips && s.rigid.size() > 0) now = select(Pack::load(&s.rigid[slot]) > Pack(0), Pack::load(&out[slot]), now);
+  now.store(&out[slot]);
 }
 
 /// work(slot) for all slots of this rank's blocks.
@@ -63,24 +85,20 @@ void for_slots(const Elements& el, const Work& work) {
     for (int l = 0; l < lanes; ++l) work(SlotId(block * lanes + l));
   });
 }
-const Volumetric& volumetric_of(const Elements& el, SlotId slot) {
-  return std::visit([](const auto& m) -> const Volumetric& { return m.volumetric; },
-                    el.materials[size_t(el.body_of(slot))]);
-}
-
 }  // namespace
 
 PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const State& s)
     : case_(cs), self_adjoint_(cs.kind == "self_adjoint"), strength_(cs.strength) {
   const size_t slots = size_t(el.blocks.slot_count());
-  J_.resize(slots), theta_.resize(slots), stress_.resize(slots);
+  for (auto* field : {&J_, &theta_, &stress_, &addends_}) field->resize(slots);
   renew(el, s);
 }
 
 void PressureFilter::renew(const Elements& el, const State& s) {
   share_.resize(s.x.size());
   sum_.resize(s.x.size());
-  nodal_sums(el, s, s.V0, sum_, false);
+  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  add_to_nodes(el, s, false, s.V0, sum_, [](int, int, int) {});
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
 }
 
@@ -153,41 +171,66 @@ void PressureFilter::mean(const Elements& el, const State& s, const Field<double
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
                              Field<double, SlotId>& out) {
-  for_blocks(el.blocks, [&](int block, int) {
-    if (skips_rigid_ && is_rigid(s, block)) return;
-    for (SlotId slot(block * lanes); slot < (block + 1) * lanes; slot = SlotId(slot + 1))
-      if (!skips_rigid_ || !is_rigid(s, slot)) out[slot] = s.V0[slot] * a[slot];
+  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  add_to_nodes(el, s, skips_rigid_, addends_, sum_, [&](int block, int, int l) {
+    const SlotId slot(block * lanes + l);
+    (Pack::load(&s.V0[slot]) * Pack::load(&a[slot])).store(&addends_[slot]);
   });
-  nodal_sums(el, s, out, sum_, skips_rigid_);
   s.for_nodes([&](NodeId n) { sum_[n] *= share_[n]; });
   for_blocks(el.blocks, [&](int block, int) {
     if (skips_rigid_ && is_rigid(s, block)) return;
-    const int32_t* nodes = el.blocks.nodes_of(block);
-    for (int l = 0; l < lanes; ++l) {
-      if (skips_rigid_ && is_rigid(s, SlotId(block * lanes + l))) continue;
-      const auto at = [&](int c) { return sum_[NodeId(nodes[c * lanes + l])]; };
-      const double mean = ((at(0) + at(1)) + (at(2) + at(3))) + ((at(4) + at(5)) + (at(6) + at(7)));
-      const SlotId slot(block * lanes + l);
-      out[slot] = (1 - strength) * a[slot] + strength * mean;
-    }
+    for (int l = 0; l < lanes; l += Pack::size) blend(el, s, block, l, a, strength, sum_, out);
   });
+}
+
+/// out = (1 - strength) a + strength times the sum of `means` over the nodes, of Pack::size elements.
+void PressureFilter::blend(const Elements& el, const State& s, int block, int first, const Field<double, SlotId>& a,
+                           double strength, const Field<double, NodeId>& means, Field<double, SlotId>& out) const {
+  const SlotId slot(block * lanes + first);
+  const Pack mean = sum_over_corners(means, el.blocks.nodes_of(block) + first);
+  store_deformable(s, skips_rigid_, slot, Pack(1 - strength) * Pack::load(&a[slot]) + Pack(strength) * mean, out);
 }
 
 const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const State& s) {
   sigma_.resize(J_.size());
-  volume_ratios(el, s, J_, skips_rigid_);
+  if (case_.gate == "none" && self_adjoint_) {
+    smooth_self_adjoint(el, s);
+    return sigma_;
+  }
+  volume_ratios(el, s, J_);
   if (case_.gate != "none") {
     smooth_gated(el, s);
-  } else if (self_adjoint_) {
-    average(el, s, J_, strength_, theta_);
-    mean_stresses(el, theta_, stress_);
-    average(el, s, stress_, strength_, sigma_);
   } else {
     mean_stresses(el, J_, stress_);
     average(el, s, stress_, strength_, sigma_);
     book_work(el, s);
   }
   return sigma_;
+}
+
+/// theta = A_b J and sigma = A_b U'(theta) in three passes over the elements.
+void PressureFilter::smooth_self_adjoint(const Elements& el, const State& s) {
+  next_sum_.resize(sum_.size());
+  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  add_to_nodes(el, s, skips_rigid_, addends_, sum_, [&](int block, int, int l) {
+    const SlotId slot(block * lanes + l);
+    const Pack J = volume_ratio(el, s, block, l);
+    J.store(&J_[slot]);
+    (Pack::load(&s.V0[slot]) * J).store(&addends_[slot]);
+  });
+  s.for_nodes([&](NodeId n) { sum_[n] *= share_[n], next_sum_[n] = 0; });
+  add_to_nodes(el, s, skips_rigid_, addends_, next_sum_, [&](int block, int body, int l) {
+    const SlotId slot(block * lanes + l);
+    blend(el, s, block, l, J_, strength_, sum_, theta_);
+    const Pack stress = volumetric_of_body(el, body).mean_stress(Pack::load(&theta_[slot]));
+    stress.store(&stress_[slot]);
+    (Pack::load(&s.V0[slot]) * stress).store(&addends_[slot]);
+  });
+  s.for_nodes([&](NodeId n) { next_sum_[n] *= share_[n]; });
+  for_blocks(el.blocks, [&](int block, int) {
+    if (skips_rigid_ && is_rigid(s, block)) return;
+    for (int l = 0; l < lanes; l += Pack::size) blend(el, s, block, l, stress_, strength_, next_sum_, sigma_);
+  });
 }
 
 void PressureFilter::renew_gate(const Elements& el, const State& s) {
@@ -255,7 +298,7 @@ double PressureFilter::energy(const Elements& el, const State& s) const {
 double checkerboard(const Elements& el, const State& s) {
   PressureFilter whole(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
   whole.skips_rigid_ = false;
-  volume_ratios(el, s, whole.J_, false);
+  volume_ratios(el, s, whole.J_);
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough =

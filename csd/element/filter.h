@@ -88,14 +88,18 @@ class PressureFilter {
   void mean(const Elements& elements, const State& s, const Field<double, SlotId>& a, Field<double, SlotId>& out);
   void average(const Elements& elements, const State& s, const Field<double, SlotId>& a, double strength,
                Field<double, SlotId>& out);
+  void blend(const Elements& elements, const State& s, int block, int first, const Field<double, SlotId>& a,
+             double strength, const Field<double, NodeId>& means, Field<double, SlotId>& out) const;
+  void smooth_self_adjoint(const Elements& elements, const State& s);
   void book_work(const Elements& elements, const State& s);
 
   FilterCase case_;
   bool self_adjoint_;
   double strength_;
-  bool skips_rigid_ = true;      // elements of rigid bodies keep their values
-  Field<double, NodeId> share_;  // 1/m^3: an eighth over the volume of a node's elements
-  Field<double, NodeId> sum_;    // work space
+  bool skips_rigid_ = true;               // elements of rigid bodies keep their values
+  Field<double, NodeId> share_;           // 1/m^3: an eighth over the volume of a node's elements
+  Field<double, NodeId> sum_, next_sum_;  // work space
+  Field<double, SlotId> addends_;         // work space
   Field<double, SlotId> J_, theta_, stress_, sigma_;
   Field<double, SlotId> change_, volume_;             // plain: sigma_m - U' and volume of the last call
   Field<double, SlotId> gate_, eqps_, mean_, rough_;  // gated: 1 once it is open; of the last step; work space
