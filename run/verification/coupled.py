@@ -164,6 +164,13 @@ def c3():
         x = probe(table, "back", "x")
         at = [np.interp(moment, t, x) for moment in (140e-6, 180e-6)]
         yield close(f"{scheme}: soft slab, u of its free back from 140 to 180 us", (at[1] - at[0]) / 40e-6, u_back, 0.02)
+        # the same by a weak shock, compressed by 0.5 %: linear acoustics holds
+        weak, weak_hit = reference.reflected_state(1.1), 0.1 / (1.1 * reference.air_sound())
+        result = run(f"C3_soft_weak_{scheme}", shock_on_slab(scheme, 1.1, 2.0, weak_hit + 190e-6, 1000.0, 1e7, 40, False))
+        table = fields.history(result.directory / "solid_history.csv")
+        at = [np.interp(moment + weak_hit, table["t"], probe(table, "wall", "x")) for moment in (60e-6, 180e-6)]
+        yield close(f"{scheme}: soft slab, u of the front from 60 to 180 us after M = 1.1, linear", (at[1] - at[0]) / 120e-6,
+                    (weak.p - 101325.0) / (1000.0 * 100.0 + weak.rho * weak.c), 0.01, result.seconds)
         # a light plate, air on one side: Taylor's
         hit = 0.1 / (1.01 * reference.air_sound())
         result = run(f"C3_weak_{scheme}", shock_on_slab(scheme, 1.01, 10.0, hit + 1.2e-3, 100.0, 1e8, 1, False))

@@ -57,6 +57,14 @@ def start(folder, words=None, case=None):
     return subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
 
+def kill_all(job):
+    """The launcher and what it started; gone already is as good."""
+    try:
+        os.killpg(job.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
 def wait_for_mark(job, out, seconds=60):
     deadline = time.monotonic() + seconds
     while job.poll() is None and time.monotonic() < deadline and not list(out.glob("pair_checkpoint_*.txt")):
@@ -69,7 +77,7 @@ def end_of(job, accident_at, faults, waits=0.0):
         said = job.communicate(timeout=60)[0]
     except subprocess.TimeoutExpired:
         faults.append("HANGS")
-        os.killpg(job.pid, signal.SIGKILL)
+        kill_all(job)
         said = job.communicate()[0]
     seconds = time.monotonic() - accident_at - waits
     if seconds > LIMIT:
@@ -122,7 +130,7 @@ def given(side, says, code=None, words=None, change=None):
             said = job.communicate(timeout=120)[0]
         except subprocess.TimeoutExpired:
             faults.append("HANGS")
-            os.killpg(job.pid, signal.SIGKILL)
+            kill_all(job)
             said = job.communicate()[0]
         if job.returncode == 0 or (code is not None and job.returncode != code):
             faults.append(f"exit code {job.returncode}, expected {code or 'not 0'}")
@@ -191,7 +199,7 @@ def fuzz():
                 except ProcessLookupError:
                     pass
         if not done:  # nothing was there to be struck
-            os.killpg(job.pid, signal.SIGKILL)
+            kill_all(job)
             job.communicate()
             continue
         waits = SILENCE if any(what == "SIGSTOP" for _, _, what in done) else 0
