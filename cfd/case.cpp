@@ -177,6 +177,8 @@ void FluidCase::check(Keys& k) const {
   if (afterburn) check_afterburn();
   if (scheme.interface == "sharp" && !body.empty())
     throw InputError(fmt::format("{}: expected \"smooth\" beside bodies: their walls reconstruct by lines", scheme.place));
+  if (scheme.interface == "sharp" && material.size() != 2)
+    throw InputError(fmt::format("{}: expected \"smooth\" with one material: it has no interface", scheme.place));
   if (scheme.interface == "sharp" && std::all_of(material.begin(), material.end(), [](const auto& m) { return std::holds_alternative<Jwl>(*m.eos); }))
     throw InputError(fmt::format("{}: expected \"smooth\": sharp interfaces need a gas or a stiffened gas on one side", scheme.place));
   if (grid.geometry != Geometry::planar) check_radial(k);

@@ -189,14 +189,18 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   };
   try {
     while (receive()) {
-      if (side.window().checkpoint) {
+      const auto keep = [&] {
+        if (!side.window().checkpoint) return;
         side.kept(write_checkpoint(cs, m, books, *out, &motion.path()));
         signal.due(m.state.t, m.state.step, m.forest.comm());  // the solid got it as well
-      }
+      };
+      const bool is_first = !out;
+      if (!is_first) keep();
       motion.begin();
-      if (!out) {
+      if (is_first) {
         m.walls->begin(side.surface(), motion.x(), side.surface().v);
         begin();
+        keep();
       }
       const coupling::Window window = side.window();
       m.state.t = window.t0;

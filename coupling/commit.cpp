@@ -36,12 +36,26 @@ CommitMark read(const fs::path& path) {
   return m;
 }
 
+/// By window; what can't be read is none.
 std::map<int64_t, fs::path> marks_in(const std::string& folder) {
   std::map<int64_t, fs::path> marks;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".txt" && entry.path().filename().string().starts_with(prefix))
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".txt" || !entry.path().filename().string().starts_with(prefix)) continue;
+    try {
       marks[read(entry.path()).window] = entry.path();
+    } catch (const InputError&) {
+    }
+  }
   return marks;
+}
+
+int64_t size_of(const std::string& file) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error)
+    throw InputError(
+        fmt::format("checkpoint of the pair: {} is not there: both programs need one output.directory", file));
+  return int64_t(size);
 }
 
 bool is_of_a_program(const std::string& name) {
@@ -57,8 +71,7 @@ uint64_t CommitMark::hash() const {
 }
 
 void commit(CommitMark mark, int keep) {
-  mark.solid_bytes = int64_t(fs::file_size(mark.solid_path()));
-  mark.fluid_bytes = int64_t(fs::file_size(mark.fluid_path()));
+  mark.solid_bytes = size_of(mark.solid_path()), mark.fluid_bytes = size_of(mark.fluid_path());
   write_atomically(fmt::format("{}/{}{:08d}.txt", mark.folder, prefix, mark.window), text_of(mark));
   std::error_code error;  // what can't be removed does no harm
   std::map<int64_t, fs::path> marks = marks_in(mark.folder);

@@ -83,11 +83,12 @@ void Coupled::keep(Archive a, Model& m) {
   side_->keep(a);
 }
 
+bool Coupled::can_commit() const {
+  if (!side_->fluid_keeps()) warn("no checkpoint: the fluid program can't keep its state");
+  return side_->fluid_keeps();
+}
+
 void Coupled::commit_with_next(const std::string& file, int keep) {
-  if (!side_->fluid_keeps()) {
-    warn("no checkpoint: the fluid program can't keep its state");
-    return;
-  }
   const std::filesystem::path path = file;
   to_commit_.emplace();
   to_commit_->solid = path.filename().string(), to_commit_->folder = path.parent_path().string();

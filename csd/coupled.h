@@ -36,6 +36,8 @@ class Coupled {
   double exchange(Model& model, double dt_stable, double t_max);
   /// Between two windows: the fluid wants a checkpoint.
   bool checkpoint_asked() const { return side_->checkpoint_asked(); }
+  /// Whether the fluid keeps its state too; warns if it doesn't.
+  bool can_commit() const;
   /// The solid's checkpoint of the time at which the next window starts is in this file: the exchange asks the fluid
   /// for its own, and commits both.
   void commit_with_next(const std::string& file, int keep);

@@ -85,8 +85,14 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
   const double t_end = coupled ? coupled->t_end() : cs.run.time.end;
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
   Output out(cs, m, t_end, from ? &from->file : nullptr);
-  std::optional<CheckpointClock> clock;
-  if (!cs.solid.rigid && !cs.solid.contact) clock.emplace(cs.run.checkpoint, m.state.t, m.state.step);
+  CheckpointClock clock(cs.run.checkpoint, m.state.t, m.state.step);
+  const bool has_state_of_its_own = cs.solid.rigid || cs.solid.contact;  // which no checkpoint holds
+  const auto checkpoint_due = [&] {
+    const bool asked = coupled && coupled->checkpoint_asked();
+    if (!clock.due(m.state.t, m.state.step, comm_of(m)) && !asked) return false;
+    if (has_state_of_its_own) warn("no checkpoint: not with [solid.rigid] or [solid.contact] yet");
+    return !has_state_of_its_own && !(coupled && !coupled->can_commit());
+  };
   std::string status = "finished";
   try {
     double& dt = now.dt;
@@ -100,8 +106,8 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
       coupling::EqualSubsteps& sub = now.sub;
       if (sub.done()) {  // else a restored run goes on inside
         const double t_next = out.next_time(m.state.t);
-        if (coupled && clock && m.state.step > 0 && (clock->due(m.state.t, m.state.step, comm_of(m)) || coupled->checkpoint_asked()))
-          coupled->commit_with_next(write_checkpoint(cs, m, now, out, &*coupled), clock->keep());
+        if (coupled && m.state.step > 0 && checkpoint_due())
+          coupled->commit_with_next(write_checkpoint(cs, m, now, out, &*coupled), clock.keep());
         const double t_target =
             coupled ? coupled->exchange(m, m.state.dt_stable, t_next) : target(m.state.t, t_next, dt);
         sub = coupling::EqualSubsteps(m.state.t, t_target);
@@ -115,8 +121,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
         dt = wanted_dt(cs, m, out);
         out.write_due(m);
         out.tick(m);
-        if (clock && !coupled && clock->due(m.state.t, m.state.step, comm_of(m)))
-          write_checkpoint_alone(cs, m, now, out, clock->keep());
+        if (!coupled && checkpoint_due()) write_checkpoint_alone(cs, m, now, out, clock.keep());
         at_rest = is_at_rest(m);
       }
       if (coupled) coupled->end_window(m);

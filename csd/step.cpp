@@ -52,7 +52,7 @@ void before_drift(Model& m, double dt) {
 void after_kick(Model& m, double dt) {
   for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.after_kick(m.state, dt); });
 }
-/// Half a step's work of the loads, at the step's velocities.
+/// Half a step's work of the loads, and the impulses that they keep books of, at the step's velocities.
 void book_half_work(Model& m, double dt) {
   if (!m.physics.loads) return;
   m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);

@@ -283,7 +283,9 @@ class CutKernel {
     if (open == 0) return f;
     Face through = open_face(low, high, d);
     // where a cell does not see the opening's width, the flow through it has the time to become steady
-    const Face jet = jet_face(low, high, d, cuts_->wall(x.c, d, side).v, open);
+    // two sides of a thin body may move differently: both cells see one flux
+    const Vec3 v_wall = 0.5 * (cuts_->wall(low.c, d, 1).v + cuts_->wall(high.c, d, 0).v);
+    const Face jet = jet_face(low, high, d, v_wall, open);
     for (int q = 0; q < n_flux; ++q) through.F[q] = jet.F[q] + open * (through.F[q] - jet.F[q]);
     through.v = jet.v + open * (through.v - jet.v);
     blend(through, open);

@@ -111,7 +111,6 @@ class CutMap {
   }
 
   // --- building (scan.cpp, motion.cpp)
-  // --------------------------------------------------------------------------------------
   void note_orphans() { may_have_orphans_ = true; }
   std::vector<CutLink>& links() { return links_; }
   void add_link(const Index3& c, int d, const CutLink& link);

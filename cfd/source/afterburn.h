@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Products of detonation that burn on: further energy per mass of explosive, released at the same pace in all of it,
 //   dE/dt = alpha1 rho1 energy dlambda/dt.
-// constant:  lambda = (t - begin)/(end - begin);
+// constant:  dlambda/dt the same from begin, or from the start of the run, to the end;
 // miller:    dlambda/dt = rate (1 - lambda)^m (p/1 Mbar)^n  [Miller 1995, Mat. Res. Soc. Proc. 418, 413], with the mass
 //            mean of p over the products in place of each particle's own: with n = 1/6 a factor of 10 in p is one
 //            of 1.5.
@@ -23,13 +23,15 @@ struct Afterburn {
   double share = 0;                        ///< lambda at the start of the step
   static constexpr double megabar = 1e11;  ///< Pa
 
-  bool over(double t) const { return share >= 1 || (kind == Kind::constant && t >= end); }
   bool needs_pressure(double t1) const { return kind == Kind::miller && t1 > begin && share < 1; }
 
   /// lambda at t1; p: mean pressure of the products at t0, for miller.
   double share_at(double t0, double t1, double p) const {
     if (t1 <= begin) return share;
-    if (kind == Kind::constant) return std::max(share, std::clamp((t1 - begin) / (end - begin), 0.0, 1.0));
+    if (kind == Kind::constant) {  // what is left by then, at one pace until the end
+      const double from = std::max(t0, begin);
+      return t1 >= end ? 1 : share + (1 - share) * (t1 - from) / (end - from);
+    }
     if (p < least_pressure || p <= 0 || share >= 1) return share;
     const double advance = rate * std::pow(p / megabar, n) * (t1 - std::max(t0, begin));
     // exact for a pressure that stays: integral of d(left)/left^m

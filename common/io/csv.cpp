@@ -61,12 +61,18 @@ History History::resume_where(const std::string& path, std::vector<Column> colum
 }
 
 History History::resume(const std::string& path, std::vector<Column> columns, double t) {
-  return resume_where(path, std::move(columns), [&](const std::string& line, int64_t) { return std::strtod(line.c_str(), nullptr) <= t; });
+  return resume_where(path, std::move(columns),
+                      [&](const std::string& line, int64_t) { return std::strtod(line.c_str(), nullptr) <= t; });
 }
 
 History History::resume_rows(const std::string& path, std::vector<Column> columns, int64_t rows) {
   if (!std::filesystem::exists(path)) return History(path, std::move(columns));
-  return resume_where(path, std::move(columns), [&](const std::string&, int64_t i) { return i < rows; });
+  History resumed = resume_where(path, std::move(columns), [&](const std::string&, int64_t i) { return i < rows; });
+  if (resumed.rows() < rows)
+    throw InputError(
+        fmt::format("{}: has {} rows, but the checkpoint was written after {}: another run's, or an older one", path,
+                    resumed.rows(), rows));
+  return resumed;
 }
 
 History::History(History&& other) noexcept

@@ -14,14 +14,11 @@ class FixedSum {
  public:
   /// Beyond 7e13, and what is no number, leaves a sum that is no number.
   FixedSum& operator+=(double a) {
-    if (std::abs(a) < 0x1p46)
-      units_ += Wide(std::ldexp(a, 80));
-    else
-      is_lost_ = true;
+    if (!(std::abs(a) < 0x1p46) || __builtin_add_overflow(units_, Wide(std::ldexp(a, 80)), &units_)) is_lost_ = true;
     return *this;
   }
   FixedSum& operator+=(const FixedSum& b) {
-    units_ += b.units_, is_lost_ = is_lost_ || b.is_lost_;
+    is_lost_ = __builtin_add_overflow(units_, b.units_, &units_) || is_lost_ || b.is_lost_;
     return *this;
   }
   double value() const { return is_lost_ ? std::numeric_limits<double>::quiet_NaN() : std::ldexp(double(units_), -80); }
@@ -39,8 +36,12 @@ class FixedSum {
     comm.sum(all);
     for (size_t k = 0; k < sums.size(); ++k) {
       Wide units = 0;
-      for (int i = 3; i >= 0; --i) units = units * (Wide(1) << 32) + Wide(all[parts * k + size_t(i)]);
-      sums[k].units_ = units, sums[k].is_lost_ = all[parts * k + 4] > 0;
+      bool is_lost = all[parts * k + 4] > 0;
+      for (int i = 3; i >= 0; --i) {
+        is_lost |= __builtin_mul_overflow(units, Wide(1) << 32, &units);
+        is_lost |= __builtin_add_overflow(units, Wide(all[parts * k + size_t(i)]), &units);
+      }
+      sums[k].units_ = units, sums[k].is_lost_ = is_lost;
     }
   }
 

@@ -78,6 +78,14 @@ end = 30e-6
   EXPECT_LT(flow.sweep.active().size(), 1u);                           // and are at rest again
 }
 
+TEST(Afterburn, WhatIsLeftAtTheStartBurnsAtOnePace) {
+  Afterburn a;
+  a.begin = 1e-3, a.end = 5e-3, a.share = 0.3;
+  EXPECT_DOUBLE_EQ(a.share_at(0.5e-3, 2e-3, 0), 0.3 + 0.7 / 4);  // it begins in this step
+  EXPECT_DOUBLE_EQ(a.share_at(3e-3, 4e-3, 0), 0.3 + 0.7 / 2);    // a run that starts late
+  EXPECT_EQ(a.share_at(4e-3, 5e-3, 0), 1);
+}
+
 TEST(Afterburn, MillersShareFollowsItsRate) {
   Afterburn a;
   a.kind = Afterburn::Kind::miller, a.rate = 2e4, a.least_pressure = 1e5;
