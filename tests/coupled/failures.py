@@ -145,13 +145,13 @@ def other(side):
     return SIDES[1 - SIDES.index(side)]
 
 
-OUTSIDE = r"\[{}\] error: ended from outside|signal 9|signal 6|Aborted|Killed"
+OUTSIDE = r"\[{}\] error: ended from outside"
 TABLE = {}
 for side in SIDES:
     TABLE[f"{side}: kill -9"] = struck(side, signal.SIGKILL, OUTSIDE.format(other(side)))
     TABLE[f"{side}: abort"] = struck(side, signal.SIGABRT, OUTSIDE.format(other(side)))
     TABLE[f"{side}: terminated"] = struck(side, signal.SIGTERM, r"ended from outside")
-    TABLE[f"{side}: hangs"] = struck(side, signal.SIGSTOP, r"silence limit|no answer|ended from outside")
+    TABLE[f"{side}: hangs"] = struck(side, signal.SIGSTOP, r"silence limit|has not taken a message|ended from outside")
     TABLE[f"{side}: disk full"] = given(side, r"error: .*(large|space|write|failed|HDF5|h5)", words=[
         "bash", "-c", f"trap '' XFSZ; ulimit -f 400; exec {BUILD}/bin/{side} {side}.toml"])
     TABLE[f"{side}: missing executable"] = given(side, r"could not (find|access)|No such file|unable", words=[f"{BUILD}/bin/{side}_is_missing"])
