@@ -42,7 +42,10 @@ Medium make_medium(const Case& cs) {
   if (cs.fluid.scheme.interface == "sharp" && medium.count() == 2) {
     medium.interface.sharpness = cs.fluid.scheme.sharpness;
     medium.interface.heaviest = 2;
-    for (int m = 0; m < 2; ++m) medium.interface.is_gas[m] = medium.is_gas[m], medium.interface.Pi_gas[m] = medium.gas[m].Pi;
+    for (int m = 0; m < 2; ++m) {
+      medium.interface.is_gas[m] = std::visit([](const auto& e) { return e.constant_reference; }, medium.eos[m]);
+      medium.interface.Pi_gas[m] = medium.gas[m].Pi;
+    }
   }
   return medium;
 }

@@ -153,6 +153,9 @@ void FluidCase::check(Keys& k) const {
     const auto& eos = *material[size_t(m)].eos;
     if (s.unburnt && !std::holds_alternative<Jwl>(eos))
       throw InputError(fmt::format("{}: expected a material with a JWL equation of state", s.place));
+    const double covolume = std::visit([](const auto& e) { return e.covolume(); }, eos);
+    if (!(s.density * covolume < 1))
+      throw InputError(fmt::format("{}: expected a density below 1/covolume, {:g} kg/m^3", s.place, 1 / covolume));
     const double least = std::holds_alternative<StiffenedGas>(eos) ? -std::get<StiffenedGas>(eos).p_inf : 0;
     if (!(s.pressure > least))
       throw InputError(fmt::format("{}: expected a pressure above {:g} Pa", s.place, least));

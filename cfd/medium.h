@@ -19,7 +19,7 @@ struct Medium {
       std::visit(
           [&](const auto& e) {
             gas[m] = {1 / e.Gruneisen(), -e.reference(1.0).p / e.Gruneisen(), m == 0 ? Prim::arho1 : Prim::arho2};
-            is_gas[m] = e.constant_reference;
+            is_gas[m] = e.constant_reference && e.covolume() == 0;
           },
           m == 0 ? eos_.front() : eos_.back());
     eos[0] = eos_.front(), eos[1] = eos_.back();
@@ -33,7 +33,7 @@ struct Medium {
   Floors floors;
   bool is_gas[2] = {false, false};  ///< material 1, 2: its Pi is constant, gas[] holds alone
   GasFlow gas[2]{};
-  Interface interface{};  ///< how cells of both materials are reconstructed
+  Interface interface {};  ///< how cells of both materials are reconstructed
   MixedFlow mixed() const { return {closure, interface}; }
 };
 

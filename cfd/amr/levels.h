@@ -117,13 +117,13 @@ void split_cell(const Mix& mix, double p_floor, const BlockShape& shape, const d
     for (int d = 0; d < 3; ++d) w[i][Prim::v + d] += shift[d];
     mix.to_conserved(w[i], out[i]);
     energy += (out[i][Cons::rhoE] + more[i] * out[i][Cons::arho1]) / n;
-    stiffness += mix.closure().G(w[i][Prim::alpha1]) / n;
+    stiffness += mix.closure().G(w[i][Prim::alpha1], w[i][Prim::arho1], w[i][Prim::arho2]) / n;
   }
   const double p_shift = (U[Cons::rhoE] - energy) / stiffness;
   bool fine = std::isfinite(p_shift);
   for (int i = 0; i < n; ++i) {
     fine = fine && w[i][Prim::p] + p_shift > std::max(p_floor, 0.1 * W[Prim::p]);
-    out[i][Cons::rhoE] += p_shift * mix.closure().G(w[i][Prim::alpha1]);
+    out[i][Cons::rhoE] += p_shift * mix.closure().G(w[i][Prim::alpha1], w[i][Prim::arho1], w[i][Prim::arho2]);
   }
   if (!fine) copy();
 }

@@ -12,13 +12,22 @@
 
 namespace bw::cfd {
 
-/// Equation of state of GasFlow. sum(): Pi and the part of G rho c^2 that does not depend on p.
+/// Equation of state of GasFlow. G(): sum alpha (1 - b rho)/Gruneisen; sum(): Pi and the part of G rho c^2 that does
+/// not depend on p; taken(): sum alpha b rho, the part of the volume that covolumes take up.
 struct GasAtWall {
   using Flow = GasFlow;
   double over_G, Pi;
   template <class W>
   double G(const W&) const {
     return over_G;
+  }
+  template <class W>
+  double G_without_covolume(const W&) const {
+    return over_G;
+  }
+  template <class W>
+  double taken(const W&) const {
+    return 0;
   }
   template <class W>
   PiTerms<double> sum(const W&) const {
@@ -37,7 +46,15 @@ struct MixtureAtWall {
   const Mix& mix;
   template <class W>
   double G(const W& w) const {
-    return mix.closure().G(w[Prim::alpha1]);
+    return mix.closure().G(w[Prim::alpha1], w[Prim::arho1], w[Prim::arho2]);
+  }
+  template <class W>
+  double G_without_covolume(const W& w) const {
+    return mix.closure().G(w[Prim::alpha1], 0.0, 0.0);
+  }
+  template <class W>
+  double taken(const W& w) const {
+    return mix.m1.covolume() * w[Prim::arho1] + mix.m2.covolume() * w[Prim::arho2];
   }
   template <class W>
   PiTerms<double> sum(const W& w) const {
@@ -65,9 +82,10 @@ struct WallGas {
       return w[0];
   }
   static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
-  static double rho_c2(const PiTerms<double>& sum, double p, double G) { return (sum.stiffness + p * (1 + G)) / G; }
-
-  double stiffness(const State& w) const { return rho_c2(eos.sum(w), w[p], eos.G(w)); }
+  double stiffness(const State& w, double pressure) const {
+    return (eos.sum(w).stiffness + pressure * (1 + eos.G_without_covolume(w))) / eos.G(w);
+  }
+  double stiffness(const State& w) const { return stiffness(w, w[p]); }
   /// Pi of rho e = G p + Pi.
   double pi(const State& w) const { return eos.sum(w).pi; }
 
@@ -76,32 +94,39 @@ struct WallGas {
     State w;
     double rho_c2;
   };
-  /// Next to the gas w: the wall's normal velocity, the gas's tangential one, its composition.
+  /// Next to the gas w: the wall's normal velocity, the gas's tangential one, its composition. A gas with a covolume is
+  /// one without in the volume that is left [Toro 1.2.5]: 1/rho - b for 1/rho; p and velocities are the same.
   AtWall at_wall(const State& w, const Vec3& normal, const Vec3& v_wall) const {
-    const double dv = dot(v_wall - velocity(w), normal), G = eos.G(w);
-    const double K = std::max(rho_c2(eos.sum(w), w[p], G), 1e-12 * w[p]);
+    const double dv = dot(v_wall - velocity(w), normal);
+    const double K = std::max(stiffness(w), 1e-12 * w[p]);
     if (dv == 0) return {w, K};
-    const WallStar star = wall_star(rho(w), w[p], K, G, dv, eos.ideal(w), [&](double ratio, double pressure) {
-      State at = w;
-      for (int q = 0; q < densities; ++q) at[size_t(q)] *= ratio;
-      return rho_c2(eos.sum(at), pressure, G);
-    });
+    const double taken = eos.taken(w), free = 1 - taken;
+    const auto denser = [&](double ratio) {
+      return ratio / (free + taken * ratio);
+    };  // of the whole, by that of what is left
+    WallStar star =
+        wall_star(rho(w) / free, w[p], K * free, eos.G(w) / free, dv, eos.ideal(w), [&](double ratio, double pressure) {
+          State at = w;
+          for (int q = 0; q < densities; ++q) at[size_t(q)] *= denser(ratio);
+          return stiffness(at, pressure) * (1 - taken * denser(ratio));
+        });
+    star.compress = denser(star.compress);
     if (!std::isfinite(star.p) || !std::isfinite(star.compress))
       return {w, K};  // no gas to speak of: it keeps what it has
     State at = w;
     for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
     at[p] = star.p;
     for (int d = 0; d < 3; ++d) at[size_t(v + d)] += dv * normal[d];
-    const PiTerms<double> sum = eos.sum(at);
-    if constexpr (Flow::mixed) at[Prim::Pi] = sum.pi;
-    return {at, std::max(rho_c2(sum, star.p, G), 0.0)};
+    if constexpr (Flow::mixed) at[Prim::Pi] = eos.sum(at).pi;
+    return {at, std::max(stiffness(at), 0.0)};
   }
 
   /// Density on the isentrope through w where the pressure is p; the sound speed at w sets the gas.
   double on_isentrope(const State& w, double pressure) const {
-    const double G = eos.G(w), K = std::max(rho_c2(eos.sum(w), w[p], G), 1e-12 * w[p]);
-    const detail::LocalGas g(w[p], K, G);
-    return rho(w) * std::pow(std::max((pressure + g.p_inf) / g.P, wall_vacuum), 1 / g.gamma);
+    const double taken = eos.taken(w), free = 1 - taken, K = std::max(stiffness(w), 1e-12 * w[p]);
+    const detail::LocalGas g(w[p], K * free, eos.G(w) / free);
+    const double ratio = std::pow(std::max((pressure + g.p_inf) / g.P, wall_vacuum), 1 / g.gamma);
+    return rho(w) * ratio / (free + taken * ratio);
   }
   /// ln of the density of w over that on the isentrope through `other`.
   double denser_than_isentrope(const State& w, const State& other) const {

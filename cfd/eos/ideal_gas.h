@@ -12,6 +12,7 @@ struct IdealGas {
   double gamma = 1.4;
 
   double Gruneisen() const { return gamma - 1; }
+  static constexpr double covolume() { return 0; }
   template <class T>
   Reference<T> reference(T) const {
     return {T(0), T(0), T(0), T(0)};

@@ -20,6 +20,7 @@ struct Jwl {
                        ///< where p is a small difference of large numbers otherwise (cfd/eos/detonation.h)
 
   double Gruneisen() const { return omega; }
+  static constexpr double covolume() { return 0; }
   template <class T>
   Reference<T> reference(T rho) const {
     // Beyond V = 1e4 both exponentials are zero; V < 0.05 comes from traces of a material only.

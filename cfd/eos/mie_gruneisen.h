@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every equation of state here has the Mie-Grueneisen form with a constant Gruneisen coefficient G,
-//   p = p_ref(rho) + G rho (e - e_ref(rho)),
-// so that a mixture in pressure equilibrium has p = (rho e - Pi)/sum(alpha/G) without iteration [Shyue 2001, Allaire
-// 2002]. A model gives only its constants and its reference curve; the algebra below is the only copy.
+// Every equation of state here has the Mie-Grueneisen form with a constant Gruneisen coefficient G and covolume b,
+//   p = p_ref(rho) + G rho (e - e_ref(rho))/(1 - b rho),
+// so that a mixture in pressure equilibrium has p = (rho e - Pi)/sum(alpha (1 - b rho)/G) without iteration [Shyue
+// 2001, Allaire 2002]. A model gives only its constants and its reference curve; the algebra below is the only copy.
 #pragma once
 #include <concepts>
 
@@ -31,26 +31,33 @@ concept Eos = requires(M m, double rho) {
   { M::name } -> std::convertible_to<const char*>;
   { M::constant_reference } -> std::convertible_to<bool>;  // p_ref constant, e_ref zero
   { m.Gruneisen() } -> std::convertible_to<double>;
+  { m.covolume() } -> std::convertible_to<double>;  // of a constant reference only
   { m.reference(rho) } -> std::same_as<Reference<double>>;
   { m.range() } -> std::same_as<EosRange>;
 };
 
+/// The Gruneisen coefficient at a density.
+template <Eos M, class T>
+T gruneisen(const M& m, T rho) {
+  return m.Gruneisen() / (T(1) - m.covolume() * rho);
+}
 template <Eos M, class T>
 T pressure(const M& m, T rho, T e) {
   const Reference<T> r = m.reference(rho);
-  return r.p + m.Gruneisen() * rho * (e - r.e);
+  return r.p + gruneisen(m, rho) * rho * (e - r.e);
 }
 /// e(rho, p) [J/kg], the inverse of pressure().
 template <Eos M, class T>
 T internal_energy(const M& m, T rho, T p) {
   const Reference<T> r = m.reference(rho);
-  return r.e + (p - r.p) / (m.Gruneisen() * rho);
+  return r.e + (p - r.p) / (gruneisen(m, rho) * rho);
 }
 /// rho c^2 = rho dp/drho|_e + (p/rho) dp/de|_rho [Pa]
 template <Eos M, class T>
 T bulk_stiffness(const M& m, T rho, T p) {
   const Reference<T> r = m.reference(rho);
-  return r.rho_dp + (m.Gruneisen() + 1) * p - r.p - m.Gruneisen() * r.rho2_de;
+  const T free = T(1) - m.covolume() * rho, G = m.Gruneisen() / free;
+  return r.rho_dp + (p - r.p) / free + G * (p - r.rho2_de);
 }
 template <Eos M, class T>
 T sound_speed(const M& m, T rho, T p) {

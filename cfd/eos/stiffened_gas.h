@@ -13,6 +13,7 @@ struct StiffenedGas {
   double p_inf = 6e8;
 
   double Gruneisen() const { return gamma - 1; }
+  static constexpr double covolume() { return 0; }
   template <class T>
   Reference<T> reference(T) const {
     return {T(-gamma * p_inf), T(0), T(0), T(0)};

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two materials with one velocity and one pressure [Allaire, Clerc, Kokh 2002]; conserved <-> primitive.
-//   G = sum alpha_k/Gruneisen_k,  Pi = sum alpha_k (rho_k e_ref,k - p_ref,k/Gruneisen_k),  p = (rho e - Pi)/G,
-//   rho c^2 = sum (alpha_k/Gruneisen_k) rho_k c_k^2 / G.
+//   G = sum alpha_k (1 - b_k rho_k)/Gruneisen_k,  Pi = sum alpha_k (rho_k e_ref,k - p_ref,k/Gruneisen_k),
+//   p = (rho e - Pi)/G,  rho c^2 = sum (alpha_k (1 - b_k rho_k)/Gruneisen_k) rho_k c_k^2 / G.
+// G is linear in what is conserved, covolumes b included, and so a contact keeps p.
 // One material is alpha1 exactly 1 (or 0) and its twin's density exactly 0; nothing here divides by them.
 #pragma once
+#include <algorithm>
+
 #include "cfd/eos/list.h"
 #include "cfd/mix/variables.h"
 
@@ -11,11 +14,12 @@ namespace bw::cfd {
 
 /// What the flow kernels need of the equations of state: all else is in the primitive variables.
 struct Closure {
-  double over_G1, over_G2;  ///< 1/Gruneisen of the two materials
-  /// sum alpha_k/Gruneisen_k
+  double over_G1, over_G2;    ///< 1/Gruneisen of the two materials
+  double b1_G = 0, b2_G = 0;  ///< b/Gruneisen [m^3/kg]
+  /// sum alpha_k (1 - b_k rho_k)/Gruneisen_k
   template <class T>
-  T G(T alpha1) const {
-    return over_G2 + alpha1 * (over_G1 - over_G2);
+  T G(T alpha1, T arho1, T arho2) const {
+    return over_G2 + alpha1 * (over_G1 - over_G2) - (arho1 * b1_G + arho2 * b2_G);
   }
 };
 
@@ -30,7 +34,10 @@ struct FiveEquation {
   M1 m1;
   M2 m2;
 
-  Closure closure() const { return {1 / m1.Gruneisen(), 1 / m2.Gruneisen()}; }
+  Closure closure() const {
+    return {1 / m1.Gruneisen(), 1 / m2.Gruneisen(), m1.covolume() / m1.Gruneisen(), m2.covolume() / m2.Gruneisen()};
+  }
+  static constexpr double least_free = 1e-3;  ///< of a dense gas: its volume without covolume
 
   /// Pi, the p-free stiffness and dPi of both materials at (arho_k, alpha1).
   template <class T>
@@ -50,7 +57,9 @@ struct FiveEquation {
     const T vx = U[Cons::mom] * over_rho, vy = U[Cons::mom_y] * over_rho, vz = U[Cons::mom_z] * over_rho;
     const T rho_e = U[Cons::rhoE] - T(0.5) * (U[Cons::mom] * vx + U[Cons::mom_y] * vy + U[Cons::mom_z] * vz);
     const PiTerms<T> s = pi_sum(U[Cons::arho1], U[Cons::arho2], alpha1);
-    const T over_G = T(1) / closure().G(alpha1);
+    const Closure c = closure();
+    const T G = max(c.G(alpha1, U[Cons::arho1], U[Cons::arho2]), T(least_free * std::min(c.over_G1, c.over_G2))),
+            over_G = T(1) / G;
     const T p_raw = (rho_e - s.pi) * over_G, p = max(p_raw, T(floors.p));
     const double g1 = 1 + 1 / m1.Gruneisen(), g2 = 1 + 1 / m2.Gruneisen();
     const T rho_c2 = max((s.stiffness + p * (alpha1 * g1 + alpha2 * g2)) * over_G, T(floors.p));
@@ -77,7 +86,8 @@ struct FiveEquation {
     for (int d = 0; d < 3; ++d) U[Cons::mom + d] = rho * W[Prim::v + d];
     const T kinetic =
         T(0.5) * rho * (W[Prim::v] * W[Prim::v] + W[Prim::v_y] * W[Prim::v_y] + W[Prim::v_z] * W[Prim::v_z]);
-    U[Cons::rhoE] = closure().G(alpha1) * W[Prim::p] + pi_sum(U[Cons::arho1], U[Cons::arho2], alpha1).pi + kinetic;
+    U[Cons::rhoE] = closure().G(alpha1, U[Cons::arho1], U[Cons::arho2]) * W[Prim::p] +
+                    pi_sum(U[Cons::arho1], U[Cons::arho2], alpha1).pi + kinetic;
     U[Cons::alpha1] = alpha1;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All pairs of equations of state; visited once per range of cells, never per cell.
+// All pairs of forms of equations of state; visited once per range of cells, never per cell.
 #pragma once
 #include "cfd/mix/five_equation.h"
 
@@ -22,13 +22,13 @@ auto pairs(std::variant<A, Rest...>*) {
 }
 }  // namespace detail
 
-/// std::variant<FiveEquation<M1, M2>...> over all pairs of EosChoice.
-using Mixture = std::remove_pointer_t<decltype(detail::pairs<EosChoice>(static_cast<EosChoice*>(nullptr)))>;
+/// std::variant<FiveEquation<M1, M2>...> over all pairs of EosForm.
+using Mixture = std::remove_pointer_t<decltype(detail::pairs<EosForm>(static_cast<EosForm*>(nullptr)))>;
 
 inline Mixture make_mixture(const EosChoice& first, const EosChoice& second) {
   return std::visit(
-      []<class A, class B>(const A& a, const B& b) -> Mixture {
-        return FiveEquation<A, B>{a, b};
+      [](const auto& a, const auto& b) -> Mixture {
+        return FiveEquation<decltype(form_of(a)), decltype(form_of(b))>{form_of(a), form_of(b)};
       },
       first, second);
 }

@@ -69,7 +69,7 @@ template <int axis, class T>
   T q[Prim::count];
   for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
   const T rho = q[Prim::arho1] + q[Prim::arho2];
-  const T E = closure.G(q[Prim::alpha1]) * q[Prim::p] + q[Prim::Pi] +
+  const T E = closure.G(q[Prim::alpha1], q[Prim::arho1], q[Prim::arho2]) * q[Prim::p] + q[Prim::Pi] +
               T(0.5) * rho * (q[n] * q[n] + q[t1] * q[t1] + q[t2] * q[t2]);
   const T flow = w.compress * w.v;
   F[Cons::arho1] = q[Prim::arho1] * flow;

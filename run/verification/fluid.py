@@ -19,6 +19,8 @@ def eos_text(eos):
     if isinstance(eos, reference.Jwl):
         return (f'{{kind = "jwl", A = {eos.a!r}, B = {eos.b!r}, R1 = {eos.r1!r}, R2 = {eos.r2!r}, omega = {eos.omega!r}, rho0 = {eos.rho0!r}, '
                 f'E0 = {eos.e0!r}}}')
+    if isinstance(eos, reference.NobleAbel):
+        return f'{{kind = "noble_abel", gamma = {eos.gamma!r}, covolume = {eos.b!r}}}'
     if eos.p_inf:
         return f'{{kind = "stiffened_gas", gamma = {eos.gamma!r}, p_inf = {eos.p_inf!r}}}'
     return f'{{kind = "ideal_gas", gamma = {eos.gamma!r}}}'
@@ -115,10 +117,13 @@ def f1():
         yield at_most(f"Sod along {AXES[axis]} against x: max |density|", np.abs(other[1] - base[1]).max(), 1e-12)
 
 
-def carried_contact(density, extra=""):
+PROPELLANT = reference.NobleAbel(1.25, 1e-3)  # gas of a gun's propellant, 1 litre of covolume a kg
+
+
+def carried_contact(density, extra="", products=reference.JWL_SETS["TNT"]):
     """Rows of a contact between products of this density and air, carried for one period."""
-    n, p0, u0, tnt = 96, 101325.0, 100.0, reference.JWL_SETS["TNT"]
-    text = tube(0.0, 1.0, n, 0, ("periodic", "periodic"), 0.01, extra) + material("products", tnt) + material("air", reference.GAS)
+    n, p0, u0 = 96, 101325.0, 100.0
+    text = tube(0.0, 1.0, n, 0, ("periodic", "periodic"), 0.01, extra) + material("products", products) + material("air", reference.GAS)
     text += region('{kind = "everywhere"}', "air", 1.225, p0, (u0, 0, 0))
     text += region('{kind = "box", lower = [0.25, -1.0, -1.0], upper = [0.75, 1.0, 1.0]}', "products", density, p0, (u0, 0, 0))
     how = "sharp " if extra else ""
@@ -130,8 +135,9 @@ def carried_contact(density, extra=""):
 
 @case("F5", quick=True)
 def f5():
-    """Two materials: a contact of products and air carried for one period keeps p and u; gas against gas"""
+    """Two materials: a contact of products and air carried for one period keeps p and u; gas against gas, dense gas of a propellant"""
     yield from carried_contact(50.0)
+    yield from carried_contact(300.0, products=PROPELLANT)
     yield from carried_contact(50.0, SHARP)
     for name, left, right, eos_l, eos_r, t in (("1.4|1.2", (1, 0, 1), (.125, 0, .1), 1.4, 1.2, .15),
                                               ("1.4|1.667", (1, 0, 500), (1, 0, .2), 1.4, 1.667, .015)):
@@ -142,6 +148,24 @@ def f5():
         inside = (contact + 0.25 * (shock - contact), shock - 0.25 * (shock - contact))
         yield close(f"gases {name} N=400: p*", plateau(x, p, *inside), exact.p, 0.01, result.seconds)
         yield close(f"gases {name} N=400: u*", plateau(x, u, *inside), exact.u, 0.01)
+    yield from dense_gas()
+
+
+def dense_gas():
+    """A propellant's gas at 300 MPa against itself (a tube of its own) and against air: the whole profile and the state between the waves."""
+    left = (250.0, 0.0, 3e8)
+    for name, right, eos_right, t in (("propellant", (20.0, 0.0, 1e6), PROPELLANT, 2.5e-4), ("air", (1.225, 0.0, 101325.0), reference.GAS, 1.2e-4)):
+        exact = reference.Riemann(left, right, PROPELLANT, eos_right)
+        errors = []
+        for n in (100, 200, 400):
+            x, rho, u, p, result = shock_tube(f"F5_dense_{name}_{n}", left, right, PROPELLANT, eos_right, 0.5, t, n)
+            errors.append(float(np.mean(np.abs(rho - exact.cell_averages(np.linspace(0, 1, n + 1), 0.5, t)[0]))) / left[0])
+        contact, shock = 0.5 + exact.u * t, 0.5 + exact.shock_speed(1) * t
+        inside = (contact + 0.25 * (shock - contact), shock - 0.25 * (shock - contact))
+        yield at_most(f"dense gas against {name}, N=400: L1(density) over that of the left", errors[-1], 0.01, result.seconds)
+        yield at_least(f"dense gas against {name}: order of L1, N=100..400", math.log(errors[0] / errors[-1]) / math.log(4), 0.745)
+        yield close(f"dense gas against {name}, N=400: p*", plateau(x, p, *inside), exact.p, 0.01)
+        yield close(f"dense gas against {name}, N=400: u*", plateau(x, u, *inside), exact.u, 0.01)
 
 
 @case("F5i")

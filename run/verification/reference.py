@@ -30,6 +30,29 @@ class IdealGas:
         return (p + self.gamma * self.p_inf) / ((self.gamma - 1) * rho)
 
 
+class NobleAbel(IdealGas):
+    """p (1/rho - b) = (gamma - 1) e: an ideal gas in the volume that its molecules leave, whose density is reduced()."""
+
+    def __init__(self, gamma, b):
+        super().__init__(gamma)
+        self.b = b
+
+    def reduced(self, rho):
+        return rho / (1 - self.b * rho) if self.b * rho < 1 else math.inf
+
+    def isentrope(self, rho, rho_i, p_i):
+        return super().isentrope(self.reduced(rho), self.reduced(rho_i), p_i)
+
+    def sound_speed(self, rho, p):
+        return math.sqrt(self.gamma * p / (rho * (1 - self.b * rho)))
+
+    def hugoniot(self, rho, rho_i, p_i):
+        return super().hugoniot(self.reduced(rho), self.reduced(rho_i), p_i)
+
+    def energy(self, rho, p):
+        return p / ((self.gamma - 1) * self.reduced(rho))
+
+
 class Jwl:
     """Products: p = A(1 - w/(R1 V))exp(-R1 V) + B(1 - w/(R2 V))exp(-R2 V) + w rho e, V = rho0/rho."""
 

@@ -167,7 +167,7 @@ struct OneBlock {
 
   Lattice lattice;
   Mix mix;
-  Mixture mixture{mix};
+  Mixture mixture = make_mixture(mix.m1, mix.m2);
   MixedFlow flow;
   BlockShape shape;
   GhostRules rules{};

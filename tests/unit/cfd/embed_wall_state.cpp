@@ -45,7 +45,8 @@ TEST(EmbedWallState, IntegratedFanMatchesClosedForm) {
 TEST(EmbedWallState, CollapsingStiffnessGivesAPressure) {
   for (const double floor : {-1e10, 0.0, 1.0})
     for (double dv = -1; dv > -5000; dv *= 1.3) {
-      const WallStar s = wall_star(21.5, 7.4e5, 4e6, 2.6, dv, false, [&](double r, double) { return r > 0.999 ? 4e6 : floor; });
+      const WallStar s =
+          wall_star(21.5, 7.4e5, 4e6, 2.6, dv, false, [&](double r, double) { return r > 0.999 ? 4e6 : floor; });
       EXPECT_GE(s.p, 0) << dv;
       EXPECT_LE(s.p, 7.4e5) << dv;
       EXPECT_GT(s.compress, 0) << dv;
@@ -77,6 +78,31 @@ TEST(EmbedWallState, JwlRecedes) {  // F10c
     EXPECT_GE(s.p, 0);
     EXPECT_LT(s.p, 1e8);
     EXPECT_GT(s.compress, 0);
+  }
+}
+
+TEST(EmbedWallState, GasWithACovolumeIsAnIdealGasInTheVolumeThatIsLeft) {
+  const double gamma = 1.25, b = 1e-3, rho = 400, p = 3e8, reduced = rho / (1 - b * rho);
+  const NobleAbel dense{gamma, b};
+  const FiveEquation<NobleAbel, NobleAbel> mix{dense, dense};
+  const WallGas<MixtureAtWall<FiveEquation<NobleAbel, NobleAbel>>> gas_at{{mix}};
+  std::array<double, Prim::count> w{};
+  w[Prim::arho1] = rho, w[Prim::p] = p, w[Prim::alpha1] = 1;
+  EXPECT_NEAR(gas_at.stiffness(w) / (rho * std::pow(sound_speed(dense, rho, p), 2)), 1, 1e-13);
+  for (const double u : {-900.0, -300.0, 300.0, 1500.0}) {
+    const auto star = gas_at.at_wall(w, {1, 0, 0}, {u, 0, 0});
+    const double ps = star.w[Prim::p], rs = star.w[Prim::arho1];
+    if (u > 0) {  // the wall moves into gas that lies in front of it: Rankine-Hugoniot
+      EXPECT_NEAR((ps - p) * (1 / rho - 1 / rs) / (u * u), 1, 1e-10) << u;
+      EXPECT_NEAR(
+          (internal_energy(dense, rs, ps) - internal_energy(dense, rho, p)) / (0.5 * (ps + p) * (1 / rho - 1 / rs)), 1,
+          1e-10)
+          << u;
+    } else {  // p (1/rho - b)^gamma and u + 2 c' rho'/... of the ideal gas in what is left
+      const double c = std::sqrt(gamma * p / reduced), share = 1 + 0.5 * (gamma - 1) * u / c;
+      EXPECT_NEAR(ps / (p * std::pow(share, 2 * gamma / (gamma - 1))), 1, 1e-10) << u;
+      EXPECT_NEAR(std::pow((1 / rho - b) / (1 / rs - b), gamma) / (ps / p), 1, 1e-10) << u;
+    }
   }
 }
 

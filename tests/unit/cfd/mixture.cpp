@@ -13,7 +13,7 @@ namespace bw::cfd {
 namespace {
 
 std::vector<EosChoice> samples() {
-  std::vector<EosChoice> list{IdealGas{1.4}, IdealGas{5.0 / 3}, StiffenedGas{4.4, 6e8}};
+  std::vector<EosChoice> list{IdealGas{1.4}, IdealGas{5.0 / 3}, StiffenedGas{4.4, 6e8}, NobleAbel{1.27, 1e-3}};
   for (const LibraryExplosive& e : explosives) list.push_back(e.jwl());
   return list;
 }

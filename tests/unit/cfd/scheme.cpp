@@ -42,8 +42,8 @@ Faces random_faces(uint64_t seed) {
 /// F(U) . e_x
 void physical_flux(const double (&W)[Prim::count], double (&F)[Cons::count]) {
   const double rho = W[0] + W[1], u = W[Prim::v];
-  const double E =
-      closure_of_two.G(W[Prim::alpha1]) * W[Prim::p] + W[Prim::Pi] + 0.5 * rho * (u * u + W[3] * W[3] + W[4] * W[4]);
+  const double E = closure_of_two.G(W[Prim::alpha1], W[Prim::arho1], W[Prim::arho2]) * W[Prim::p] + W[Prim::Pi] +
+                   0.5 * rho * (u * u + W[3] * W[3] + W[4] * W[4]);
   F[0] = W[0] * u, F[1] = W[1] * u;
   F[2] = rho * u * u + W[Prim::p], F[3] = rho * u * W[3], F[4] = rho * u * W[4];
   F[5] = (E + W[Prim::p]) * u, F[6] = W[Prim::alpha1] * u;
