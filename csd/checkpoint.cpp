@@ -42,8 +42,9 @@ void keep_condition(Archive a, ConditionKind& kind) {
 }
 
 /// All modules of the physics; those that a case lacks leave no trace.
-void keep_physics(const Archive& all, Physics& ph) {
+void keep_physics(const Archive& all, Model& m) {
   Archive a = all.section("physics");
+  Physics& ph = m.physics;
   a.list("mass_factor", ph.elements.mass_factor);
   a.value("energy", ph.energy);
   ph.resting.keep(a.section("resting"), ph.elements.blocks.block_count());
@@ -59,6 +60,11 @@ void keep_physics(const Archive& all, Physics& ph) {
   if (ph.relaxation) keep("static", *ph.relaxation);
   if (ph.mass_scaling) keep("mass_scaling", *ph.mass_scaling);
   if (ph.cracks) keep("cracks", *ph.cracks);
+  if (ph.rigid) keep("rigid", *ph.rigid);
+  if (ph.contact) keep("contact", *ph.contact);
+  if (!a.restores()) return;
+  if (ph.rigid) ph.rigid->go_on(m);
+  if (ph.contact) ph.contact->go_on(m);
 }
 
 void keep_run(Archive a, Progressed& run) {
@@ -68,15 +74,8 @@ void keep_run(Archive a, Progressed& run) {
 
 }  // namespace
 
-void check_checkpoints(const Case& cs) {
-  for (const auto& [is_there, table] :
-       {std::pair{cs.solid.rigid.has_value(), "[solid.rigid]"}, {cs.solid.contact.has_value(), "[solid.contact]"}})
-    if (is_there) throw InputError(fmt::format("{}: checkpoint: runs with {} can't be continued yet", cs.file, table));
-}
-
 std::optional<Restart> open_restart(const Case& cs, const std::string& file_or_folder, const Comm& comm) {
   if (file_or_folder.empty()) return {};
-  check_checkpoints(cs);
   CheckpointHead head{program, layout, case_hash(cs.file)};
   CheckpointReader file(find_checkpoint(file_or_folder, program), head, comm);
   say("goes on from step {}, t = {:.6g} s (written by {} rank{})", head.step, head.t, head.ranks,
@@ -96,7 +95,7 @@ std::string write_checkpoint(const Case& cs, Model& m, const Progressed& run, Ou
   mesh.same("parent", std::vector<NodeId>(m.mesh.parent.begin(), m.mesh.parent.end()));
   const Archive all(file.section("model"), m.mesh, m.physics.elements);
   keep_state(all.section("state"), m.state);
-  keep_physics(all, m.physics);
+  keep_physics(all, m);
   Progressed now = run;
   keep_run(all.section("run"), now);
   out.keep(all.section("output"));
@@ -122,7 +121,7 @@ Progressed restore_model(Model& m, const Restart& from) {
     throw InputError("the checkpoint doesn't fit the case's mesh");
   const Archive all(from.file.section("model"), m.mesh, m.physics.elements);
   keep_state(all.section("state"), m.state);
-  keep_physics(all, m.physics);
+  keep_physics(all, m);
   Progressed run;
   keep_run(all.section("run"), run);
   return run;

@@ -35,7 +35,4 @@ std::string write_checkpoint(const Case& cs, Model& model, const Progressed& run
 /// One of a run alone: older ones than the latest `keep` are removed.
 void write_checkpoint_alone(const Case& cs, Model& model, const Progressed& run, Output& out, int keep);
 
-/// InputError if the case has a module whose state can't be kept.
-void check_checkpoints(const Case& cs);
-
 }  // namespace bw::csd

@@ -63,14 +63,9 @@ bool is_at_rest(const Model& m) {
 
 Comm comm_of(const Model& m) { return m.physics.elements.ranks ? m.physics.elements.ranks->comm() : Comm(); }
 
-bool wants_checkpoints(const RunControl::Checkpoint& rules) {
-  return rules.every > 0 || rules.every_wall > 0 || rules.every_steps > 0;
-}
-
 }  // namespace
 
 int run(const Case& cs, Model& m, coupling::Channel* channel) {
-  if (wants_checkpoints(cs.run.checkpoint)) check_checkpoints(cs);
   std::optional<coupling::CommitMark> mark;
   if (channel && !cs.restart.empty()) mark = coupling::find_commit(cs.restart);
   const std::optional<Restart> from = open_restart(cs, mark ? mark->solid_path() : cs.restart, comm_of(m));
@@ -86,12 +81,10 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
   Output out(cs, m, t_end, from ? &from->file : nullptr);
   CheckpointClock clock(cs.run.checkpoint, m.state.t, m.state.step);
-  const bool has_state_of_its_own = cs.solid.rigid || cs.solid.contact;  // which no checkpoint holds
   const auto checkpoint_due = [&] {
     const bool asked = coupled && coupled->checkpoint_asked();
     if (!clock.due(m.state.t, m.state.step, comm_of(m)) && !asked) return false;
-    if (has_state_of_its_own) warn("no checkpoint: not with [solid.rigid] or [solid.contact] yet");
-    return !has_state_of_its_own && !(coupled && !coupled->can_commit());
+    return !(coupled && !coupled->can_commit());
   };
   std::string status = "finished";
   try {

@@ -65,6 +65,20 @@ class Contact {
     void clear() { pairs.clear(), group.assign(1, 0); }
   };
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    a.list("supported", held_.row), a.list("free", held_.free);
+    a.list("fresh", fresh_), a.list("fresh_sides", is_fresh_), a.value("lips", lips_);
+    a.list("lip_pairs", near_lips_.pairs), a.list("lip_groups", near_lips_.group);
+    a.list("body_pairs", near_bodies_.pairs), a.list("body_groups", near_bodies_.group);
+    a.list("surface", surface_), a.value("margin", margin_), a.value("used", used_), a.value("drift", drift_);
+    a.value("version", version_), a.value("searched", searched_), a.value("next_search", next_search_);
+    a.value("impulses", impulses_), a.value("work", work_);
+  }
+  /// After keep() has restored, and the state with it.
+  void go_on(Model& m) { follow_surface(m); }
+
  private:
   // contact_search.cpp
   void follow_surface(Model& m);

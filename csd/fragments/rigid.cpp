@@ -53,6 +53,10 @@ void Rigid::start(Model& m) {
   renew_marks(m);
 }
 
+void Rigid::go_on(Model& m) {
+  if (m.state.rigid.size() > 0) renew_marks(m);
+}
+
 void Rigid::kick(State& s, double h) {
   parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
     RigidBody& body = bodies_[size_t(i)];

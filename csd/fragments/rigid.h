@@ -108,6 +108,17 @@ class Rigid {
   /// Up to date with all cracks.
   const Fragments& fragments(Model& m);
 
+  /// In a checkpoint.
+  template <class A>
+  void keep(A& a) {
+    RigidBody::keep(a, bodies_);
+    a.lists("elements", elems_);
+    a.value("next_switch", next_switch_), a.value("opened", opened_), a.value("waiting", is_waiting_);
+    a.list("records", records_), a.value("left", left_);
+  }
+  /// After keep() has restored, and the state with it: what follows from them.
+  void go_on(Model& m);
+
  private:
   struct Piece {  // label of the fragment and its elements, ascending
     int32_t label;

@@ -5,6 +5,7 @@
 // by the angle h |omega| (so that a spin about a principal axis is exact), five of them composed to fourth order
 // [Suzuki 1990].
 #pragma once
+#include <type_traits>
 #include <vector>
 
 #include "common/data/field.h"
@@ -61,12 +62,37 @@ class RigidBody {
   void place_nodes(Field<Vec3, NodeId>& x) const;
   void move_nodes(Field<Vec3, NodeId>& v) const;
 
+  /// All bodies of a run in a checkpoint, array by array.
+  template <class A>
+  static void keep(A& a, std::vector<RigidBody>& bodies) {
+    std::vector<std::vector<NodeId>> nodes;
+    std::vector<std::vector<Vec3>> arms;
+    for (const RigidBody& body : bodies) nodes.push_back(body.nodes_), arms.push_back(body.arm_);
+    a.lists("nodes", nodes), a.lists("arms", arms);
+    bodies.resize(nodes.size(), RigidBody());
+    for (size_t b = 0; b < bodies.size(); ++b) bodies[b].nodes_ = nodes[b], bodies[b].arm_ = arms[b];
+    const auto each = [&]<class T>(const char* name, T RigidBody::*number) {
+      std::vector<std::conditional_t<std::is_same_v<T, bool>, char, T>> all;
+      for (const RigidBody& body : bodies) all.push_back(body.*number);
+      a.list(name, all);
+      for (size_t b = 0; b < bodies.size(); ++b) bodies[b].*number = all[b];
+    };
+    each("motion", &RigidBody::motion_), each("stopped", &RigidBody::is_stopped_);
+    each("mass", &RigidBody::mass_), each("radius", &RigidBody::radius_);
+    each("inverse_inertia", &RigidBody::inverse_inertia_);
+    each("attitude", &RigidBody::q_), each("turned", &RigidBody::turned_);
+    each("centre", &RigidBody::x_), each("velocity", &RigidBody::v_);
+    each("angular_momentum", &RigidBody::L_), each("spin", &RigidBody::omega_);
+    each("force", &RigidBody::F_), each("torque", &RigidBody::T_);
+  }
+
  private:
+  RigidBody() = default;
   void renew_spin();
 
   std::vector<NodeId> nodes_;
   std::vector<Vec3> arm_;  // m, in the body's frame
-  Motion motion_;
+  Motion motion_ = Motion::six_dof;
   bool is_stopped_ = false;
   double mass_ = 0, radius_ = 0;
   Mat3 inverse_inertia_{};  // of the nodes' masses about the centre, body's frame; zero for translation

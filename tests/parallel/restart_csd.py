@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """csd goes on from a checkpoint with the bits of the run that was never stopped: in the middle of cracks, with other threads and ranks, killed at
 any instant, asked by a signal.
-    restart_csd.py BUILD_FOLDER [cracks | pieces | bar | loaded | static | killed | signal ...]"""
+    restart_csd.py BUILD_FOLDER [cracks | pieces | rigid | waiting | contact | bar | loaded | static | local | local_rigid | killed | signal | refused ...]   none named: all but waiting and local_rigid"""
 import os
 import pathlib
 import random
@@ -121,17 +121,26 @@ def refused():
     return faults
 
 
+# by the mean force alone, some time after they broke off
+WAITING = csd.RIGID.replace("elements = 60", 'elements = 60\nage = "5 us"\nstress = "0.5 GPa"\nmotion = "mean_force"')
 # local steps, while the levels change
 LOCAL = csd.CRACKS.replace('[solid.filter]\nkind = "self_adjoint"\nstrength = 0.5\n', "[solid.time_step]\nlevels = 3\n")
 GROUPS = {"cracks": lambda: compare("cracks", csd.CRACKS, 74, [12, 45, 60, 72], [(1, 2), (2, 1), (1, 1), (1, 1)]),
           "pieces": lambda: compare("pieces", csd.PIECES, 76, [66], [(1, 2)]),
+          # while the plate is free, after two fragments left the box; rigid pieces spin and meet the wall
+          "rigid": lambda: compare("rigid", csd.RIGID, 80, [63, 75], [(2, 1), (1, 1)]),
+          "waiting": lambda: compare("waiting", WAITING, 60, [45, 58], [(1, 2), (1, 1)]),
+          # lips that have not parted; rigid fragments that meet
+          "contact": lambda: compare("contact", csd.CONTACT, 70, [62], [(2, 1)]),
           "bar": lambda: compare("bar", csd.BAR, 40, [7, 31], [(1, 2), (2, 1)]),
           "loaded": lambda: compare("loaded", csd.LOADED.replace("STEP", "0.26 us"), 60, [10, 41], [(1, 2), (2, 2)]),
           "static": lambda: compare("static", csd.STATIC, 100, [51], [(1, 2)]),
           "local": lambda: compare("local", LOCAL, 40, [9, 25], [(1, 2), (1, 1)], first=1),
+          "local_rigid": lambda: compare("local_rigid", csd.LOCAL, 30, [9, 16, 23], [(1, 2), (1, 1), (1, 2)], first=1),
           "killed": killed, "signal": signal, "refused": refused}
+LONG = ("waiting", "local_rigid")  # only if they are named
 
 if __name__ == "__main__":
-    failures = [fault for group in csd.arguments or GROUPS for fault in GROUPS[group]()]
+    failures = [fault for group in csd.arguments or [name for name in GROUPS if name not in LONG] for fault in GROUPS[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)
