@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """csd on 1 to 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | pieces | rigid | contact | bar | loaded | static | coupled | errors ...]"""
+    csd.py BUILD_FOLDER [cracks | pieces | rigid | contact | bar | loaded | static | local | coupled | errors ...]   none named: all
+    csd.py BUILD_FOLDER weapon    the small weapon, 1+1 to 2+2 ranks and 2 threads"""
 import os
 import pathlib
 import sys
@@ -12,6 +13,7 @@ arguments = sys.argv[1:]
 os.environ["BREAKWAVE_BUILD"] = str(pathlib.Path(arguments.pop(0)).resolve())
 sys.argv = sys.argv[:2]  # the regression runs, whose shell is used here, read theirs
 import runs  # noqa: E402
+import weapon as small_weapon  # noqa: E402
 from fields import history, series, summary, Solid  # noqa: E402
 from verification import solid  # noqa: E402
 from verification.case import output, run  # noqa: E402
@@ -158,7 +160,14 @@ def local():
 
 
 def coupled():
-    return compare("coupled", runs.SHELL.replace('"30 us"', '"24 us"'), [("1+1", 1), ("2+1", 1)], only=None)[0]
+    return compare("coupled", small_weapon.CASE.replace('"60 us"', '"26 us"'), [("1+1", 1), ("2+2", 1)], only=None)[0]
+
+
+def weapon():
+    faults, directory = compare("weapon", small_weapon.CASE, [("1+1", 1), ("2+1", 1), ("1+2", 1), ("2+2", 1), ("1+1", 2)], only=None)
+    table = history(directory / "solid_history.csv")
+    print(f"weapon: {table['fragments'][-1]:.0f} pieces, {table['rigid_fragments'][-1]:.0f} rigid, {table['left_fragments'][-1]:.0f} left the box, contact work {table['contact_work'][-1]:.3g} J")
+    return faults + ([] if min(table[key][-1] for key in ("fragments", "rigid_fragments", "left_fragments")) > 1 else ["weapon: nothing breaks, becomes rigid or leaves"])
 
 
 def errors():
@@ -179,6 +188,6 @@ def errors():
 
 if __name__ == "__main__":
     groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "local": local, "coupled": coupled, "errors": errors}
-    failures = [fault for group in arguments or groups for fault in groups[group]()]
+    failures = [fault for group in arguments or groups for fault in (groups | {"weapon": weapon})[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)

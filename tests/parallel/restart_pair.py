@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pair goes on from a checkpoint with the bits of the run that was never stopped: a shell full of explosive that cracks; with other threads and
 ranks, killed at any instant, asked by a signal.
-    restart_pair.py BUILD_FOLDER [from | killed | signal | refused ...] [--deaths N] [--seed N]"""
+    restart_pair.py BUILD_FOLDER [from | killed | signal | refused ...] [--deaths N] [--seed N]
+    restart_pair.py BUILD_FOLDER weapon    from the middle of the small weapon's burn, of its cracks, of its flight"""
 import os
 import pathlib
 import random
@@ -13,7 +14,7 @@ import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE.parents[1] / "run"), str(HERE.parent / "regression"), str(HERE.parent / "coupled")]
+sys.path += [str(HERE), str(HERE.parents[1] / "run"), str(HERE.parent / "regression"), str(HERE.parent / "coupled")]
 os.environ["BREAKWAVE_BUILD"] = str(pathlib.Path(sys.argv[1]).resolve())
 
 
@@ -30,6 +31,7 @@ DEATHS, SEED = option("--deaths", 3), option("--seed", os.getpid())
 arguments = sys.argv[2:]
 sys.argv = sys.argv[:2]
 import runs  # noqa: E402
+import weapon  # noqa: E402
 from fields import history  # noqa: E402
 from launch import ENVIRONMENT  # noqa: E402
 from verification.case import BUILD, WORK  # noqa: E402
@@ -67,10 +69,10 @@ def marks(out):
     return sorted(out.glob("pair_checkpoint_*.txt"))
 
 
-def whole():
-    out = clean("pair_whole")
+def whole(name="pair", text=CASE):
+    out = clean(f"{name}_whole")
     started = time.monotonic()
-    finish(begin("pair_whole", CASE), "whole")
+    finish(begin(f"{name}_whole", text), "whole")
     solid = history(out / "solid_history.csv")
     if not solid["opened_faces"][-1] > 20:
         raise RuntimeError("nothing cracks")
@@ -81,20 +83,30 @@ def differ(one, two):
     return [d for d in runs.differences(one, two) if not d.startswith("coupling_history.csv:waited")]
 
 
-def go_on():
-    """From several windows of a run with many checkpoints, on other ranks and threads."""
-    (first, _), faults = whole(), []
-    out = clean("pair_from")
-    finish(begin("pair_from", CASE + '[checkpoint]\nevery = "4 us"\nkeep = 1000\n'), "from")
+def from_marks(name, text, choice):
+    """From several windows of a run with many checkpoints, on other ranks and threads. choice: ((which mark, ranks, threads), ...)."""
+    (first, _), faults = whole(name, text), []
+    out = clean(f"{name}_from")
+    finish(begin(f"{name}_from", text + '[checkpoint]\nevery = "4 us"\nkeep = 1000\n'), "from")
     different = differ(first, out)
     faults += [f"checkpoints change the results: {different[:8]}"] if different else []
     all_marks = marks(out)
-    for mark, ranks, threads in ((all_marks[1], (1, 1), 2), (all_marks[3], (2, 1), 1), (all_marks[4], (1, 2), 1), (all_marks[-1], (1, 1), 1)):
-        finish(begin("pair_from", CASE, ranks, threads, "--restart", str(mark)), f"from {mark.name}")
+    for at, ranks, threads in choice:
+        mark = all_marks[at]
+        begun = mark.read_text().split("\n")[2]
+        finish(begin(f"{name}_from", text, ranks, threads, "--restart", str(mark)), f"from {mark.name}")
         different = differ(first, out)
-        print(f"from {mark.name} of {len(all_marks)}, {ranks[0]}+{ranks[1]} ranks x {threads}: {different[:8] or 'the same bits'}", flush=True)
+        print(f"{name}: from {mark.name} of {len(all_marks)}, {begun}, {ranks[0]}+{ranks[1]} ranks x {threads}: {different[:8] or 'the same bits'}", flush=True)
         faults += [f"from {mark.name}: other bits"] if different else []
     return faults
+
+
+def go_on():
+    return from_marks("pair", CASE, ((1, (1, 1), 2), (3, (2, 1), 1), (4, (1, 2), 1), (-1, (1, 1), 1)))
+
+
+def go_on_weapon():
+    return from_marks("weapon", weapon.CASE, ((1, (1, 1), 2), (3, (2, 1), 1), (6, (1, 2), 1), (8, (2, 2), 1), (11, (1, 1), 1), (-1, (2, 2), 1)))
 
 
 def kill(process, victim):
@@ -175,8 +187,9 @@ def refused():
 
 
 GROUPS = {"from": go_on, "killed": killed, "signal": signal, "refused": refused}
+LONG = {"weapon": go_on_weapon}
 
 if __name__ == "__main__":
-    failures = [fault for group in arguments or GROUPS for fault in GROUPS[group]()]
+    failures = [fault for group in arguments or GROUPS for fault in (GROUPS | LONG)[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)
