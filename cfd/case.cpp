@@ -216,6 +216,7 @@ Case read_case(const CommandLine& line) {
   k.finish({"solid"});
   line.apply(cs.run);
   cs.restart = line.restart;
+  if (!line.replay.empty()) cs.coupling.replay = line.replay, cs.coupling.replay_place.clear();
   if (line.threads > 0) cs.fluid.threads = line.threads;
   return cs;
 }

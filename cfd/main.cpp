@@ -6,7 +6,7 @@
 #include "common/app/guarded.h"
 #include "common/app/log.h"
 #include "common/app/machine.h"
-#include "coupling/join.h"
+#include "coupling/replay.h"
 
 namespace bw::cfd {
 namespace {
@@ -25,7 +25,7 @@ int program(const Session& session, int argc, char** argv) {
     check(cs, session.world());
     return exit_ok;
   }
-  coupling::Joined joined = coupling::join(session, coupling::Role::fluid, cs.coupling);
+  coupling::Joined joined = coupling::join_or_replay(session, coupling::Role::fluid, cs.coupling);
   set_speaker("cfd", joined.mine.root());
   return run(cs, joined.mine, joined.channel.get());
 }

@@ -16,6 +16,7 @@
 #include "common/app/log.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
+#include "coupling/stand_in.h"
 
 namespace bw::coupling {
 namespace {
@@ -58,7 +59,7 @@ std::atomic<bool> ending{false};  // a failure is being told: what happens meanw
 
 const char* name_of(Role role) { return role == Role::solid ? "solid" : "fluid"; }
 
-struct Channel::State {
+struct Channel::State : std::enable_shared_from_this<Channel::State> {
   Comm mine;
   MPI_Comm inter = MPI_COMM_NULL;
   Role role = Role::solid;
@@ -68,6 +69,7 @@ struct Channel::State {
   double t = 0, waited = 0;
   bool open = true;
   std::vector<MPI_Request> started;
+  std::unique_ptr<StandIn> stand_in;  // then there is no inter
 
   static std::shared_ptr<State> active;  // survives the Channel while an exception is on its way to be reported
 
@@ -76,6 +78,8 @@ struct Channel::State {
   [[noreturn]] void end(int code, const std::string& text, bool said = false);
   [[noreturn]] void end_with_peer(int source);
   void look_for_failure();
+  void become_active();
+  bool is_there(int tag) const;
   static void at_exit();
   [[noreturn]] static void at_terminate();
 };
@@ -91,9 +95,10 @@ void Channel::State::end(int code, const std::string& text, bool said) {
   quiet_notice();
   if (!said) error_line(fmt::format("FAILED{}: {} [exit code {}]", place(), text, code));
   std::fflush(nullptr);
+  stand_in.reset();  // its file is closed before the libraries end
   int main_thread = 0;
   if (MPI_Is_thread_main(&main_thread) != MPI_SUCCESS || !main_thread) _exit(code);  // mpirun then ends the others
-  if (open) {
+  if (open && inter != MPI_COMM_NULL) {
     open = false;
     FailBlock fail{};
     fail.code = code;
@@ -141,11 +146,19 @@ void Channel::State::end_with_peer(int source) {
 }
 
 void Channel::State::look_for_failure() {
-  if (!open || ending) return;
+  if (!open || ending || inter == MPI_COMM_NULL) return;
   int there = 0;
   MPI_Status status;
   check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &there, &status), "MPI_Iprobe");
   if (there) end_with_peer(status.MPI_SOURCE);
+}
+
+/// A message with that tag has come.
+bool Channel::State::is_there(int tag) const {
+  if (stand_in) return stand_in->next(tag);
+  int there = 0;
+  check_mpi(MPI_Iprobe(0, tag, inter, &there, MPI_STATUS_IGNORE), "MPI_Iprobe");
+  return there != 0;
 }
 
 void Channel::State::at_exit() {
@@ -178,12 +191,23 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   state_->role = role;
   state_->limits = limits;
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
-  State::active = state_;
-  std::set_terminate(State::at_terminate);
-  static const int once = std::atexit(State::at_exit);
+  state_->become_active();
+}
+
+Channel::Channel(const Comm& mine, std::unique_ptr<StandIn> stand_in, Role role) : state_(std::make_shared<State>()) {
+  state_->mine = mine;
+  state_->role = role;
+  state_->stand_in = std::move(stand_in);
+  state_->become_active();
+}
+
+void Channel::State::become_active() {
+  active = shared_from_this();
+  std::set_terminate(at_terminate);
+  static const int once = std::atexit(at_exit);
   (void)once;
   set_failure_hook([](int code, const std::string& text) {
-    State::active->end(code, text.empty() ? "the program ended with an error code" : text, !text.empty());
+    active->end(code, text.empty() ? "the program ended with an error code" : text, !text.empty());
   });
 }
 
@@ -210,6 +234,7 @@ void Channel::set_place(int64_t window, double t) {
 
 void Channel::close() {
   state_->open = false;
+  state_->stand_in.reset();
   quiet_notice();
 }
 
@@ -219,6 +244,11 @@ void Channel::close() {
 void Channel::send(int tag, const void* data, size_t bytes) {
   if (bytes > size_t(INT32_MAX))
     fail(exit_malformed, fmt::format("a {} message of {} bytes is too long", word_of(tag), bytes));
+  if (state_->stand_in) {
+    if (const Verdict fault = state_->stand_in->take(tag, {static_cast<const char*>(data), bytes}))
+      fail(fault->code, fault->text);
+    return;
+  }
   MPI_Request request;
   check_mpi(MPI_Isend(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, &request), "MPI_Isend");
   state_->started.push_back(request);
@@ -244,25 +274,21 @@ int Channel::wait(std::initializer_list<int> tags) {
   double next_line = state_->limits.heartbeat;
   bool may_bye = false;
   for (const int tag : tags) may_bye |= tag == tag_bye;
-  const auto probe = [&](int tag) {
-    int there = 0;
-    check_mpi(MPI_Iprobe(0, tag, state_->inter, &there, MPI_STATUS_IGNORE), "MPI_Iprobe");
-    return there != 0;
-  };
   for (;;) {
     for (const int tag : tags)
-      if (probe(tag)) {
+      if (state_->is_there(tag)) {
         state_->waited += patience.seconds();
         return tag;
       }
     state_->look_for_failure();
     const char* word = word_of(*tags.begin());
-    if (!may_bye && probe(tag_bye)) {
+    if (!may_bye && state_->is_there(tag_bye)) {
       ByeBlock bye{};
       receive(tag_bye, "BYE", &bye, sizeof bye);
       bye.text[sizeof bye.text - 1] = 0;
       fail(exit_bye, fmt::format("{} said BYE ({}) while {} was expected", peer(), bye.text, word));
     }
+    if (state_->stand_in) fail(exit_malformed, fmt::format("{} has no {} to give", peer(), word));
     const double waited = patience.seconds();
     if (waited > state_->limits.silence)
       fail(exit_silence, fmt::format("no {} from {} for {:g} s (silence limit)", word, peer(), state_->limits.silence));
@@ -275,6 +301,7 @@ int Channel::wait(std::initializer_list<int> tags) {
 }
 
 size_t Channel::size_of(int tag) const {
+  if (state_->stand_in) return state_->stand_in->next(tag)->bytes.size();
   MPI_Status status;
   int bytes = 0;
   check_mpi(MPI_Probe(0, tag, state_->inter, &status), "MPI_Probe");
@@ -287,6 +314,12 @@ void Channel::receive(int tag, const char* message, void* data, size_t bytes) {
   const size_t arrived = size_of(tag);
   if (arrived != bytes)
     fail(exit_malformed, fmt::format("{} from {} has {} bytes, {} were expected", message, peer(), arrived, bytes));
+  if (const auto& stand_in = state_->stand_in) {
+    const StandIn::Message* message = stand_in->next(tag);
+    std::copy(message->bytes.begin(), message->bytes.end(), static_cast<char*>(data));
+    stand_in->drop(message);
+    return;
+  }
   check_mpi(MPI_Recv(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, MPI_STATUS_IGNORE), "MPI_Recv");
 }
 

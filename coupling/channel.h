@@ -17,6 +17,8 @@
 
 namespace bw::coupling {
 
+class StandIn;
+
 enum class Role { solid, fluid };
 const char* name_of(Role role);  ///< "solid", "fluid"
 
@@ -36,6 +38,7 @@ enum CouplingExit {
   exit_bye = 76,           ///< BYE out of turn
   exit_killed = 77,        ///< ended from outside: the other program died, or the job was cancelled
   exit_ledger = 78,        ///< the books of the two sides do not agree
+  exit_record = 79,        ///< a record that doesn't fit the run, or ends before it
 };
 
 /// What a channel waits for, and how long.
@@ -51,6 +54,8 @@ class Channel {
  public:
   /// Takes over `inter`, the intercommunicator of the two sides, and installs itself as the failure hook of guarded().
   Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits);
+  /// Without another program: the leader's is stood in for, the other ranks' is null.
+  Channel(const Comm& mine, std::unique_ptr<StandIn> stand_in, Role role);
   /// Ends the program with exit_left if the coupling is still open, unless an exception is on its way to be reported.
   ~Channel();
   Channel(const Channel&) = delete;

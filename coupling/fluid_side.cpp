@@ -9,7 +9,7 @@
 namespace bw::coupling {
 
 FluidSide::FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hello) : channel_(channel) {
-  t_end_ = shake_hands(channel, cs, hello);
+  t_end_ = shake_hands(channel, cs, hello).t_end;
   known_.t = hello.t0;
   known_.window = hello.first_window - 1;
 }

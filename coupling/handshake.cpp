@@ -9,24 +9,24 @@
 
 namespace bw::coupling {
 
-double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello, uint64_t* features) {
+Greeting shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello) {
   const Timed timed("handshake", Timed::waiting);
-  double t_end = hello.t_end;
-  uint64_t can = 0;
+  Greeting result;
+  double& t_end = result.t_end = hello.t_end;
   if (channel.leader()) {
-    const HelloBlock mine = pack(hello, cs, name_of(channel.role()), channel.mine().size());
+    const HelloBlock mine = result.mine = pack(hello, cs, name_of(channel.role()), channel.mine().size());
     channel.send(tag_hello, &mine, sizeof mine);
     channel.wait({tag_hello});  // of any size: another version's may be longer
     std::vector<char> bytes(channel.size_of(tag_hello));
     channel.receive(tag_hello, "HELLO", bytes.data(), bytes.size());
-    HelloBlock other{};
+    HelloBlock& other = result.other;
     std::memcpy(static_cast<void*>(&other), bytes.data(), std::min(bytes.size(), sizeof other));
     if (const Verdict fault = check_protocol(other, bytes.size())) channel.fail(fault->code, fault->text);
     other.program[sizeof other.program - 1] = other.version[sizeof other.version - 1] = 0;
     channel.set_peer(other.program, std::min(mine.silence_limit, other.silence_limit));
     if (const Verdict fault = check_agreement(mine, other)) channel.fail(fault->code, fault->text);
     channel.flush();
-    can = other.features;
+    result.features = other.features;
     if (other.t_end > 0) t_end = t_end > 0 ? std::min(t_end, other.t_end) : other.t_end;
     if (!(t_end > hello.t0)) channel.fail(exit_disagreement, "HELLO: neither program knows when to end");
     if (channel.role() == Role::solid) {  // one of the two says so
@@ -36,9 +36,8 @@ double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello,
     }
   }
   channel.share(&t_end, sizeof t_end);
-  channel.share(&can, sizeof can);
-  if (features) *features = can;
-  return t_end;
+  channel.share(&result.features, sizeof result.features);
+  return result;
 }
 
 }  // namespace bw::coupling

@@ -7,7 +7,11 @@ namespace bw::coupling {
 
 /// HELLO both ways, checked; the same end time on all ranks of both sides: the smaller of the two [s]. Ends the run if
 /// the two programs do not fit together.
-/// features: bits of the other program.
-double shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello, uint64_t* features = nullptr);
+struct Greeting {
+  double t_end = 0;
+  uint64_t features = 0;       ///< of the other program
+  HelloBlock mine{}, other{};  ///< as on the wire (leader)
+};
+Greeting shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello);
 
 }  // namespace bw::coupling

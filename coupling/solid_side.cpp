@@ -14,7 +14,11 @@ namespace bw::coupling {
 
 SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path)
     : channel_(channel), case_(cs), predictor_(cs.kind()), added_mass_(cs.added_mass), ledger_(cs.reference_pressure) {
-  t_end_ = shake_hands(channel, cs, hello, &features_);
+  const Greeting greeting = shake_hands(channel, cs, hello);
+  t_end_ = greeting.t_end;
+  features_ = greeting.features;
+  if (channel.leader() && !cs.record.empty() && cs.replay.empty())
+    recorder_.emplace(cs.record, greeting.mine, greeting.other);
   t_last_ = hello.t0;
   if (channel.leader()) history_path_ = history_path;
   if (channel.leader() && !history_path.empty() && hello.restart_hash == 0)
@@ -63,6 +67,10 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
 
   if (const Verdict fault = renewed ? check_surface(sent_) : check_motion(sent_))
     channel_.fail(fault->code, fault->text);
+  if (recorder_) {
+    const Timed record("record");
+    recorder_->asked(step_, sent_);
+  }
   channel_.send(tag_step, &step_, sizeof step_);
   channel_.send(tag_x, std::span<const Vec3>(sent_.x));
   channel_.send(tag_v, std::span<const Vec3>(sent_.v));
@@ -106,6 +114,10 @@ const Loads& SolidSide::receive() {
       channel_.receive(tag_impedance, "LOAD: impedance", loads_.impedance.data(), n * sizeof(double));
     if (const Verdict fault = check_values(loads_, sent_)) channel_.fail(fault->code, fault->text);
     waited_ = channel_.seconds_waited() - waited_before;
+    if (recorder_) {
+      const Timed record("record");
+      recorder_->answered(load, loads_);
+    }
   }
   channel_.share(&load, sizeof load);
   channel_.share(loads_.p);
@@ -144,6 +156,7 @@ void SolidSide::finish(const std::string& reason) {
     channel_.send(tag_bye, &bye, sizeof bye);
     channel_.flush();
     channel_.receive(tag_bye, "BYE", &bye, sizeof bye);
+    if (recorder_) recorder_->finished(bye);
   }
   channel_.mine().barrier();
   channel_.close();

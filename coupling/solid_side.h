@@ -20,6 +20,7 @@
 #include "coupling/ledger.h"
 #include "coupling/messages.h"
 #include "coupling/predictor.h"
+#include "coupling/record.h"
 #include "coupling/substeps.h"
 
 namespace bw::coupling {
@@ -98,6 +99,7 @@ class SolidSide {
   double t_last_ = 0;    // s, where the books are closed
   double waited_ = 0;    // s, for the last LOAD
   std::optional<History> history_;
+  std::optional<Recorder> recorder_;  // leader
 };
 
 }  // namespace bw::coupling

@@ -28,6 +28,9 @@ Case read_case(const CommandLine& line) {
   k.finish({"fluid"});
   line.apply(cs.run);
   cs.restart = line.restart;
+  if (!line.record.empty()) cs.coupling.record = line.record;
+  if (!line.replay.empty()) cs.coupling.replay = line.replay, cs.coupling.replay_place.clear();
+  if (!cs.coupling.replay.empty()) cs.run.checkpoint = {};  // there is no other program to keep its half
   if (line.threads > 0) cs.solid.threads = line.threads;
   return cs;
 }

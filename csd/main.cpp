@@ -5,7 +5,7 @@
 #include "common/app/guarded.h"
 #include "common/app/log.h"
 #include "common/app/machine.h"
-#include "coupling/join.h"
+#include "coupling/replay.h"
 #include "csd/run.h"
 
 namespace bw::csd {
@@ -23,7 +23,7 @@ int program(const Session& session, int argc, char** argv) {
   if (const std::string text = thread_warning(threads); !text.empty()) warn("{}", text);
   coupling::Joined joined;
   if (!line.check) {
-    joined = coupling::join(session, coupling::Role::solid, cs.coupling);
+    joined = coupling::join_or_replay(session, coupling::Role::solid, cs.coupling);
     set_speaker("csd", joined.mine.root());
   }
   Model model = build(cs, joined.mine);

@@ -21,6 +21,8 @@ CommandLine read_command_line(int argc, char** argv, const std::string& program,
   app.add_option("--output", line.output, "folder of the results, instead of the case file's");
   app.add_option("--end", end, "end time with unit (\"50 us\"), instead of the case file's");
   app.add_option("--restart", line.restart, "go on from this checkpoint, or from the latest one in this folder");
+  app.add_option("--record", line.record, "keep what crosses between the two programs in this file (csd)");
+  app.add_option("--replay", line.replay, "run alone against such a file, in place of the other program");
   app.set_version_flag("--version", fmt::format("{} {} ({})", program, version(), git_version()));
   try {
     app.parse(argc, argv);

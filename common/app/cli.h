@@ -14,6 +14,7 @@ struct CommandLine {
   bool manual = false;           ///< print the manual of the case file and stop
   int threads = 0;               ///< 0: as the case file says
   std::string output;            ///< instead of output.directory
+  std::string record, replay;    ///< instead of coupling.record, coupling.replay
   std::string restart;           ///< a checkpoint, or a folder: its latest one; empty: from the start
   double end = 0;                ///< instead of time.end, if positive
   std::optional<int> exit_code;  ///< set if everything is done already (--help, --version)

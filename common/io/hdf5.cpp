@@ -7,26 +7,11 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "common/io/hdf5_types.h"
+
 namespace bw::h5 {
 
 namespace {
-
-template <Value T>
-hid_t memory_type() {
-  if constexpr (std::same_as<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::same_as<T, float>) return H5T_NATIVE_FLOAT;
-  if constexpr (std::same_as<T, int64_t>) return H5T_NATIVE_INT64;
-  if constexpr (std::same_as<T, int32_t>) return H5T_NATIVE_INT32;
-  if constexpr (std::same_as<T, uint8_t>) return H5T_NATIVE_UINT8;
-}
-template <Value T>
-hid_t file_type() {
-  if constexpr (std::same_as<T, double>) return H5T_IEEE_F64LE;
-  if constexpr (std::same_as<T, float>) return H5T_IEEE_F32LE;
-  if constexpr (std::same_as<T, int64_t>) return H5T_STD_I64LE;
-  if constexpr (std::same_as<T, int32_t>) return H5T_STD_I32LE;
-  if constexpr (std::same_as<T, uint8_t>) return H5T_STD_U8LE;
-}
 
 constexpr int64_t chunk_items = 131072, compress_above = 16384;
 
@@ -36,15 +21,6 @@ herr_t note_cause(unsigned depth, const H5E_error2_t* entry, void* text) {
   return 0;
 }
 
-[[noreturn]] void failed(const std::string& path, const std::string& what) {
-  std::string cause;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_cause, &cause);
-  throw std::runtime_error(fmt::format("{}: HDF5: {} failed{}", path, what, cause));
-}
-
-/// HDF5 prints its own stack of errors unless told not to.
-void quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
 Handle access(const std::string& path, const Comm& comm) {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (comm.size() > 1 && H5Pset_fapl_mpio(list.get(), comm.raw(), MPI_INFO_NULL) < 0) failed(path, "parallel access");
@@ -52,6 +28,14 @@ Handle access(const std::string& path, const Comm& comm) {
 }
 
 }  // namespace
+
+void failed(const std::string& path, const std::string& what) {
+  std::string cause;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, note_cause, &cause);
+  throw std::runtime_error(fmt::format("{}: HDF5: {} failed{}", path, what, cause));
+}
+
+void quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 Handle Group::owned(hid_t id, Handle::Closer closer, const std::string& what) const {
   if (id < 0) failed(shared_->path, what);
@@ -82,6 +66,8 @@ File File::create(const std::string& path, const Comm& comm) {
 File File::open(const std::string& path, const Comm& comm) {
   quiet();
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access(path, comm).get()), H5Fclose);
+  if (file.get() < 0 && comm.size() == 1)  // its writer is still there, or has died: what a GrowingFile holds is whole
+    file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose);
   if (file.get() < 0) failed(path, "opening the file");
   Group root(std::make_shared<const Group::Shared>(Group::Shared{path, comm}),
              Handle(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose));

@@ -71,8 +71,9 @@ def between(quantity, measured, low, high, seconds=None):
 Result = collections.namedtuple("Result", "directory seconds output code")
 
 
-def run(name, text, ranks="1+1", threads=0, only=None, expect=0):
-    """Runs a case given as text in build/verify/<name>; returns its output folder, wall seconds and printed text."""
+def run(name, text, ranks="1+1", threads=0, only=None, expect=0, words=()):
+    """Runs a case given as text in build/verify/<name>; words: for the programs; returns its output folder, wall seconds and
+    printed text."""
     work = WORK / re.sub(r"[^A-Za-z0-9_.-]", "_", name)
     out = work / "out"
     if out.exists():
@@ -84,6 +85,7 @@ def run(name, text, ranks="1+1", threads=0, only=None, expect=0):
     command = [str(ROOT / "run" / "breakwave"), str(file), "--ranks", ranks, "--build", str(BUILD)]
     command += ["--threads", str(threads)] if threads else []
     command += ["--only", only] if only else []
+    command += ["--", *words] if words else []
     start = time.monotonic()
     done = subprocess.run(command, cwd=work, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=3600)
     seconds = time.monotonic() - start

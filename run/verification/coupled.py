@@ -199,6 +199,19 @@ def c11():
         yield close(f"{h:g} mm: work of the fluid against the solid's", float(np.sum(ledger["fluid_work"])), float(np.sum(ledger["solid_work"])), 0.01)
 
 
+@case("replay", quick=True)
+def replay():
+    """C1 recorded, then each program alone against the record: columns of its history that differ"""
+    text = piston(end=2e-4)
+    pair = run("replay_pair", text, words=("--record", "out/record.h5"))
+    for program, table in (("solid", "solid_history.csv"), ("fluid", "fluid_history.csv")):
+        alone = run(f"replay_{program}", text, only=program, words=("--replay", str(pair.directory / "record.h5")))
+        was, now = (fields.history(result.directory / table) for result in (pair, alone))
+        timing = ("wait", "wall", "cpu", "rate", "per_second", "per second", "elem/s", "cells/s")
+        different = [name for name in was if not any(word in name.lower() for word in timing) and not np.array_equal(was[name], now.get(name))]
+        yield at_most(f"{program} alone: columns of its history with other bits ({len(was)} columns, {len(was['t'])} rows)", len(different), 0, alone.seconds)
+
+
 @case("weapon")
 def weapon():
     """The demo: ledger, mass, energy of both programs, charge, pieces"""

@@ -22,6 +22,8 @@ if(TARGET bw_coupling)
   if(TARGET csd AND TARGET cfd)
     add_test(NAME coupled_failures COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/failures.py ${CMAKE_BINARY_DIR} --ranks 2+2 --only "kill -9")
     add_test(NAME coupled_disk_full COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/failures.py ${CMAKE_BINARY_DIR} --only "disk full")
+    add_test(NAME coupled_replay COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/replay.py ${CMAKE_BINARY_DIR}
+             ${CMAKE_CURRENT_BINARY_DIR}/replay)
     add_test(NAME coupled_programs COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/programs.py
              $<TARGET_FILE_DIR:csd> ${CMAKE_SOURCE_DIR}/run/cases/piston/case.toml ${CMAKE_CURRENT_BINARY_DIR}/programs)
   endif()

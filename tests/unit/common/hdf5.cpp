@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "common/io/growing_file.h"
 #include "common/math/random.h"
 
 using namespace bw;
@@ -76,5 +77,26 @@ TEST(Hdf5, failures_name_the_file) {
     } catch (const std::runtime_error& e) {
       EXPECT_NE(std::string(e.what()).find("x.h5: HDF5: "), std::string::npos) << e.what();
     }
+  }
+}
+
+TEST(Hdf5, a_growing_file_is_readable_while_it_grows) {
+  const std::string path = testing::TempDir() + "bw_growing.h5";
+  h5::GrowingFile file(path);
+  file.table<double>("x", 3);
+  file.table<int32_t>("n", 1);
+  file.start();
+  std::vector<double> all;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> x(30000 * size_t(i));  // none, less than a chunk, several
+    for (size_t k = 0; k < x.size(); ++k) x[k] = uniform01(4, all.size() + k);
+    all.insert(all.end(), x.begin(), x.end());
+    file.append("x", std::span<const double>(x));
+    file.append("n", std::span<const int32_t>(&i, 1));
+    file.flush();
+    const h5::File reader = h5::File::open(path);
+    EXPECT_EQ(reader.root().read<double>("x"), all);
+    EXPECT_EQ(reader.root().shape("x"), (std::array<int64_t, 2>{int64_t(all.size()) / 3, 3}));
+    EXPECT_EQ(reader.root().read<int32_t>("n").size(), size_t(i + 1));
   }
 }
