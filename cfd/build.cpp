@@ -12,6 +12,7 @@
 #include "cfd/source/detonation.h"
 #include "cfd/light.h"
 #include "cfd/start/paint.h"
+#include "cfd/start/vortex.h"
 #include "common/app/log.h"
 #include "common/math/random.h"
 #include "common/parallel/loop.h"
@@ -309,6 +310,7 @@ void paint_regions(Model& m, const Case& cs, bool last) {
   if (const double n = m.forest.comm().sum(unpainted); n > 0)
     throw InputError(fmt::format("{}: fluid.region: {:g} cells belong to no region: begin with shape = {{kind = \"everywhere\"}}", cs.file, n));
   if (m.start) paint_profile(m, *m.start, last);
+  for (const VortexCase& v : cs.fluid.vortex) paint_vortex(m, v);
   inspect(m, all);
 }
 

@@ -66,6 +66,8 @@ void FluidCase::describe(Keys& k) {
   k.tables("material", material, "one or two materials");
   k.tables("region", region, "the state at t = 0");
   k.table("start_from", start_from, "over the regions, what a run along a radius ended with");
+  k.tables("vortex", vortex, "isentropic vortices in the gas of the regions");
+  if (!planar && !vortex.empty()) k.fail("vortex", "no vortices along a radius");
   k.optional("perturbation", perturbation, dim::none,
              "the density of each cell is changed at the start by up to this part of it, at random, the same on any number of ranks: to see instabilities");
   k.expect(perturbation >= 0 && perturbation < 0.5, "perturbation", "a number from 0 to below 0.5");

@@ -14,6 +14,7 @@
 #include "cfd/source/afterburn.h"
 #include "cfd/source/light.h"
 #include "cfd/start/case.h"
+#include "cfd/start/vortex.h"
 #include "common/app/cli.h"
 #include "coupling/case.h"
 
@@ -293,6 +294,7 @@ struct FluidCase {
   std::vector<MaterialCase> material;
   std::vector<RegionCase> region;
   std::optional<StartCase> start_from;
+  std::vector<VortexCase> vortex;
   std::vector<InflowCase> inflow;
   std::vector<BurnCase> burn;
   std::optional<AfterburnCase> afterburn;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Error against run time of the solid on meshes of three sizes; one thread. A table and a plot per case in build/bench."""
+"""Error against run time on meshes of several sizes, one thread; a table and a plot per case in build/bench. Here the solid's cases."""
 import csv
 import math
 
@@ -11,15 +11,21 @@ from verification.case import BUILD, output, run
 from .row import row
 
 FOLDER = BUILD / "bench"
-WANTED = {"S7": 0.01, "S8": 0.03, "S9": 0.01, "cook": 0.02, "wave": 0.1}  # errors that are good enough in practice
+# errors that are good enough in practice
+WANTED = {"S7": 0.01, "S8": 0.03, "S9": 0.01, "cook": 0.02, "wave": 0.1, "sod": 2e-3, "vortex": 1e-3, "sedov": 0.01, "detonation": 0.02, "blast": 0.03, "piston": 2e-3,
+          "wedge": 0.01}
 
 
-def study(name, quantity, exact, sizes, measure):
-    """measure(size) gives (value, processor seconds of csd); writes the table and the plot, returns the rows."""
-    points = []
-    for size in sizes:
-        value, seconds = measure(size)
-        points.append((size, value, abs(value - exact) / (abs(exact) if exact else 1), seconds))
+def study(name, quantity, exact, sizes, measure, across="elements across", peers=()):
+    """measure(size) gives (value, processor seconds); writes the table and the plot, returns the rows. peers: (name of another program, its measure)."""
+    def points_of(how):
+        found = []
+        for size in sizes:
+            value, seconds = how(size)
+            found.append((size, value, abs(value - exact) / (abs(exact) if exact else 1), seconds))
+        return found
+    points = points_of(measure)
+    others = [(peer, points_of(how)) for peer, how in peers]
     errors, seconds = (np.array([p[k] for p in points]) for k in (2, 3))
     order = -np.polyfit(np.log([p[0] for p in points]), np.log(errors), 1)[0]
     slope, offset = np.polyfit(np.log(seconds), np.log(errors), 1)
@@ -27,16 +33,20 @@ def study(name, quantity, exact, sizes, measure):
     FOLDER.mkdir(parents=True, exist_ok=True)
     with open(FOLDER / f"precision_{name}.csv", "w", newline="") as file:
         table = csv.writer(file)
-        table.writerow(["elements across", quantity, "reference", "error", "processor seconds"])
-        table.writerows([p[0], p[1], exact, p[2], p[3]] for p in points)
-    plot(name, quantity, points, order, slope, offset)
+        table.writerow(["program", across, quantity, "reference", "error", "processor seconds"])
+        table.writerows(["Breakwave", p[0], p[1], exact, p[2], p[3]] for p in points)
+        table.writerows([peer, p[0], p[1], exact, p[2], p[3]] for peer, found in others for p in found)
+    plot(name, quantity, points, order, slope, offset, others)
     print(f"{FOLDER / f'precision_{name}.csv'} and .png", flush=True)
     rows = [row(f"{name}_{p[0]}_error", p[2], "") for p in points] + [row(f"{name}_{p[0]}_seconds", p[3], "s of the processor") for p in points]
+    for peer, found in others:
+        for theirs in found:
+            rows += [row(f"{name}_{theirs[0]}_error_{peer}", theirs[2], ""), row(f"{name}_{theirs[0]}_seconds_{peer}", theirs[3], "s of the processor")]
     return rows + [row(f"{name}_order", order, "of the error in 1/h"), row(f"{name}_slope", slope, "d log error/d log seconds"),
                    row(f"{name}_seconds_to_{WANTED[name]:g}", enough, "s of the processor, by the fit")]
 
 
-def plot(name, quantity, points, order, slope, offset):
+def plot(name, quantity, points, order, slope, offset, others):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
@@ -46,6 +56,8 @@ def plot(name, quantity, points, order, slope, offset):
     axes.loglog(seconds, np.exp(offset) * seconds ** slope, "-", color="tab:blue", label=f"seconds^{slope:.2f}; h^{order:.2f}")
     for size, _, error, at in points:
         axes.annotate(f" {size}", (at, error))
+    for peer, found in others:
+        axes.loglog([p[3] for p in found], [p[2] for p in found], "s", color="tab:orange", label=peer)
     axes.axhline(WANTED[name], color="0.6", lw=0.8)
     axes.set(xlabel="processor seconds, one thread", ylabel="error", title=f"{name}: {quantity}")
     axes.legend()
@@ -54,9 +66,9 @@ def plot(name, quantity, points, order, slope, offset):
     pyplot.close(figure)
 
 
-def seconds_of(result):
+def seconds_of(result, program="solid"):
     """Of the processor, so that what else runs on the machine counts little."""
-    return solid.fields.summary(result.directory, "solid")["cpu_seconds"]
+    return solid.fields.summary(result.directory, program)["cpu_seconds"]
 
 
 def taylor_bar():

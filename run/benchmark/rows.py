@@ -8,7 +8,7 @@ import sys
 from verification import fluid, fluid_levels, reference, solid
 from verification.case import BUILD, ROOT, WORK, RunFailed, output, run
 
-from . import precision
+from . import precision, precision_flow
 from .row import row
 
 sys.path.insert(0, str(ROOT / "run"))
@@ -299,4 +299,5 @@ def exchange_200k_ms():
 
 
 GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share, amr_overhead],
-          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS}
+          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_200k_ms], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
+STUDIES = {"solid": precision.MAKERS, "fluid": precision_flow.FLUID, "wall": precision_flow.WALL}  # of precision, by room

@@ -61,7 +61,7 @@ def half_space(position, axis):
 SHARP = 'scheme = {interface = "sharp"}\n'
 
 
-def shock_tube(name, left, right, eos_left, eos_right, x0, t, n, axis=0, lower=0.0, upper=1.0, extra=""):
+def shock_tube(name, left, right, eos_left, eos_right, x0, t, n, axis=0, lower=0.0, upper=1.0, extra="", threads=0):
     """Runs a Riemann problem; centres, density, velocity, pressure, seconds."""
     two = eos_left is not eos_right
     names = ("left", "right") if two else ("gas", "gas")
@@ -69,7 +69,7 @@ def shock_tube(name, left, right, eos_left, eos_right, x0, t, n, axis=0, lower=0
     text += material(names[0], eos_left) + (material(names[1], eos_right) if two else "")
     text += region('{kind = "everywhere"}', names[0], float(left[0]), float(left[2]), along(axis, float(left[1])))
     text += region(half_space(x0, axis), names[1], float(right[0]), float(right[2]), along(axis, float(right[1])))
-    result = run(name, text, only="fluid")
+    result = run(name, text, only="fluid", threads=threads)
     x, rho, u, p = profile(result.directory, axis)
     return x, rho, u, p, result
 

@@ -42,16 +42,21 @@ def picture(result, *names):
     return (flow.centres(0), flow.centres(1), *(flow.array(name)[:, :, 0].T for name in names))
 
 
+def wedge(mach, theta, n, x0=0.203, threads=0):
+    """A wedge in a supersonic stream until it is steady, n cells a unit of length: the run, the exact angle of its shock and the pressure behind it."""
+    beta = weak_shock(mach, theta)
+    p2, rho2, _, after = oblique(mach, beta)
+    end = 1.6 / ((after - 1) * math.sqrt(p2 / rho2))  # until the slowest wave along the wall has left
+    body = f'[[fluid.body]]\nname = "wedge"\nshape = {{kind = "wedge", point = [{x0!r}, 0.1037, 0.0], angle = {theta!r}, length = 3.0}}\n'
+    return run(f"F11_{mach}_{theta}_{n}", stream(mach, n, (0, 0), (1.6, 1.6), end, body), only="fluid", threads=threads), beta, p2
+
+
 @case("F11")
 def f11():
     """Oblique shocks from an embedded wedge, four of Mach 2 to 5: angle of the shock, pressure behind it, noise along the wall"""
     n, x0 = 100, 0.203
     for mach, theta in ((2, 10), (2, 20), (3, 20), (5, 20)):
-        beta = weak_shock(mach, theta)
-        p2, rho2, _, after = oblique(mach, beta)
-        end = 1.6 / ((after - 1) * math.sqrt(p2 / rho2))  # until the slowest wave along the wall has left
-        body = f'[[fluid.body]]\nname = "wedge"\nshape = {{kind = "wedge", point = [{x0!r}, 0.1037, 0.0], angle = {theta!r}, length = 3.0}}\n'
-        result = run(f"F11_{mach}_{theta}", stream(mach, n, (0, 0), (1.6, 1.6), end, body), only="fluid")
+        result, beta, p2 = wedge(mach, theta, n, x0)
         x, y, p = picture(result, "pressure")
         crossing, columns = [], []
         for i in np.flatnonzero((x > x0 + 0.4) & (x < 1.4)):

@@ -143,6 +143,7 @@ CASES = {
     "afterburn ends before it begins": ("cfd", FLUID + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[fluid.afterburn]\nmaterial = "TNT"\nbegin = 2\nend = 1\n', r"end.*after begin", {}),
     "afterburn of no known energy": ("cfd", FLUID + '[[fluid.material]]\nname = "C-4"\nlibrary = "C-4"\n[fluid.afterburn]\nmaterial = "C-4"\nend = 1\n', r"energy", {}),
     "miller without a rate": ("cfd", FLUID + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[fluid.afterburn]\nmaterial = "TNT"\nkind = "miller"\n', r"rate", {}),
+    "vortex that leaves no gas": ("cfd", FLUID + '[[fluid.vortex]]\ncentre = [0, 0, 0]\nradius = "50 mm"\nspeed = 2000\n', r"leaves gas at the vortex's centre", {}),
     "denser than its covolume": ("cfd", swap(FLUID, 'kind = "ideal_gas", gamma = 1.4', 'kind = "noble_abel", gamma = 1.25, covolume = 1.0'), r"density below 1/covolume", {}),
     "afterburn before the burn is over": ("cfd", FLUID + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "TNT"\nunburnt = true\npressure = 101325\n' + BURN + '[fluid.afterburn]\nmaterial = "TNT"\nbegin = "1 us"\nend = 1\n', r"end of the programmed burn", {}),
     "sharp interface beside a body": ("cfd", FLUID.replace("[fluid]", '[fluid]\nscheme = {interface = "sharp"}') + '[[fluid.body]]\nname = "ball"\nshape = {kind = "sphere", centre = [0.08, 0, 0], radius = 0.02}\n', r"beside bodies", {}),
