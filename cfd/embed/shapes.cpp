@@ -66,6 +66,22 @@ void frame(const Vec3& n, Vec3& u, Vec3& v) {
   v = cross(n, u);
 }
 
+/// Where an edge along the unit vector u through `point`, from -far to far, is cut into facets: of size h beside the
+/// domain, one on either side of it.
+std::vector<double> cuts(const ShapeSetting& s, const Vec3& point, const Vec3& u, double far) {
+  double low = far, high = -far;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 x;
+    for (int d = 0; d < 3; ++d) x[d] = corner >> d & 1 ? s.upper[d] : s.lower[d];
+    low = std::min(low, dot(x - point, u)), high = std::max(high, dot(x - point, u));
+  }
+  const int n = pieces(high - low, s.h);
+  std::vector<double> at{-far};
+  for (int i = 0; i <= n; ++i) at.push_back(low + (high - low) * i / n);
+  at.push_back(far);
+  return at;
+}
+
 /// Parallelepiped with corner o and edges a, b, c (right-handed).
 Facets block(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c, double h) {
   Facets s;
@@ -126,7 +142,21 @@ Facets PistonShape::facets(const ShapeSetting& s) const {
   Vec3 u, v;
   frame(n, u, v);
   const double far = s.far() + norm(point - 0.5 * (s.lower + s.upper));
-  return block(point - far * (u + v + n), 2 * far * u, 2 * far * v, far * n, std::max(s.h, 2 * far / most_facets));
+  // of its six sides five are out of the domain's reach; they are cut as its front is, so that they fit
+  const std::vector<double> along_u = cuts(s, point, u, far), along_v = cuts(s, point, v, far);
+  const int m_u = int(along_u.size()) - 1, m_v = int(along_v.size()) - 1;
+  const auto at_u = [&](double p) { return along_u[size_t(std::lround(p * m_u))] * u; };
+  const auto at_v = [&](double q) { return along_v[size_t(std::lround(q * m_v))] * v; };
+  const Vec3 back = point - far * n;
+  Facets f;
+  add_patch(f, m_u, m_v, [&](double p, double q) { return point + at_u(p) + at_v(q); });
+  add_patch(f, m_v, m_u, [&](double p, double q) { return back + at_u(q) + at_v(p); });
+  add_patch(f, m_v, 1, [&](double p, double q) { return back + far * u + at_v(p) + q * far * n; });
+  add_patch(f, 1, m_v, [&](double p, double q) { return back - far * u + at_v(q) + p * far * n; });
+  add_patch(f, 1, m_u, [&](double p, double q) { return back + far * v + at_u(q) + p * far * n; });
+  add_patch(f, m_u, 1, [&](double p, double q) { return back - far * v + at_u(p) + q * far * n; });
+  merge(f, 1e-9 * far);
+  return f;
 }
 
 Facets PlaneShape::facets(const ShapeSetting& s) const {
@@ -137,9 +167,17 @@ Facets PlaneShape::facets(const ShapeSetting& s) const {
     u = unit(t);
     v = cross(n, u);
   }
-  const double far = 2 * (s.far() + norm(point - 0.5 * (s.lower + s.upper)));
-  const Vec3 a = (size.empty() ? far : size[0]) * u, b = (size.empty() ? far : size[1]) * v;
   Facets f;
+  if (size.empty()) {
+    const double far = s.far() + norm(point - 0.5 * (s.lower + s.upper));
+    const std::vector<double> along_u = cuts(s, point, u, far), along_v = cuts(s, point, v, far);
+    const int m_u = int(along_u.size()) - 1, m_v = int(along_v.size()) - 1;
+    add_patch(f, m_u, m_v, [&](double p, double q) {
+      return point + along_u[size_t(std::lround(p * m_u))] * u + along_v[size_t(std::lround(q * m_v))] * v;
+    });
+    return f;
+  }
+  const Vec3 a = size[0] * u, b = size[1] * v;
   add_patch(f, pieces(norm(a), s.h), pieces(norm(b), s.h),
             [&](double p, double q) { return point + (p - 0.5) * a + (q - 0.5) * b; });
   return f;

@@ -82,7 +82,8 @@ void paint_vortex(Model& m, const VortexCase& in) {
   if (m.forest.comm().sum(double(other)) > 0)
     throw InputError(fmt::format("{}: expected cells of one ideal or stiffened gas everywhere", in.place));
   if (m.forest.comm().sum(double(empty)) > 0)
-    throw InputError(fmt::format("{}: expected a speed that leaves gas at the vortex's centre, not {:g} m/s", in.place, in.speed));
+    throw InputError(
+        fmt::format("{}: expected a speed that leaves gas at the vortex's centre, not {:g} m/s", in.place, in.speed));
 }
 
 }  // namespace bw::cfd
