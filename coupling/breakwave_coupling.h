@@ -15,6 +15,9 @@
  *
  *   mpirun -n 1 csd case.toml : -n 1 my_fluid
  *
+ * A program that needs MPI_COMM_WORLD for itself, or comes later, is started apart and names a port_file, the case's
+ * coupling.port_file (PROTOCOL.md, Joining by a port).
+ *
  * SI units, absolute pressure, arrays in C order; [n][3] is x, y, z of item 0, of item 1, ... A face is a quad of four
  * nodes, counted from 0, whose normal by the right-hand rule points into the fluid; a triangle has its last node twice.
  *
@@ -62,6 +65,8 @@ typedef struct fsi_options {
   double silence_limit; /* s without the awaited message before the run is ended; the smaller of the two programs'
                            counts; 600 */
   double join_limit;    /* s to wait for the other program at the start; 120 */
+  const char* port_file; /* NULL: csd is in the same mpirun; a path: it was started apart and is met by this file; then
+                            MPI_COMM_WORLD is the fluid's alone; NULL */
 } fsi_options;
 
 /* The solid's wet surface at t0 and what it wants. Pointers are valid until the next fsi_recv_surface. */

@@ -18,8 +18,10 @@ struct CouplingCase {
   std::string radiation = "auto";      ///< faces feel rho c (v - announced v) inside a window
   double silence_limit = 600;          ///< s
   double join_limit = 120;             ///< s
-  std::string record, replay;          ///< files; empty: none
-  std::string replay_place;            ///< of that key, for errors; empty: from the command line
+  std::string join = "names";          ///< or "port"
+  std::string port_file;
+  std::string record, replay;  ///< files; empty: none
+  std::string replay_place;    ///< of that key, for errors; empty: from the command line
 
   template <class K>
   void describe(K& k) {
@@ -43,11 +45,18 @@ struct CouplingCase {
     k.optional("silence_limit", silence_limit, dim::time,
                "a program that hears nothing from the other for so long ends both");
     k.optional("join_limit", join_limit, dim::time, "longest wait for the other program at the start");
+    k.choice(
+        "join", join, {"names", "port"},
+        "names: both programs are in one mpirun and find each other by their roles; port: each has an mpirun of its "
+        "own and its MPI_COMM_WORLD for itself, and they meet by port_file, in any order");
+    k.optional("port_file", port_file,
+               "file in which csd says where it waits, with join = \"port\"; the same for both programs");
+    k.expect(join == "names" || !port_file.empty(), "join", "port_file beside join = \"port\"");
     k.optional("record", record,
                "HDF5 file in which csd keeps what crosses between the programs, window by window; or --record FILE");
     k.optional("replay", replay,
                "such a file in place of the other program: csd gets its loads, cfd its surfaces; or --replay FILE");
-    if (!replay.empty()) replay_place = k.where("replay") + ": ";
+    if (!replay.empty()) replay_place = k.where("replay");
     k.expect(reference_pressure >= 0, "reference_pressure", "a pressure >= 0");
     k.expect(window_max >= 0, "window_max", "a time >= 0");
     k.expect(added_mass >= 0, "added_mass", "a number >= 0");

@@ -6,37 +6,20 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <thread>
+#include <optional>
 
 #include "common/app/guarded.h"
 #include "common/app/log.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
+#include "coupling/polite.h"
 #include "coupling/stand_in.h"
 
 namespace bw::coupling {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Sleeps longer the longer one waits: busy waiting would steal the other program's cores.
-class Patience {
- public:
-  void rest() const {
-    const double waited = seconds_since(start_);
-    if (waited < 50e-6) return;
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(waited / 64, 50e-6, 2e-3)));
-  }
-  double seconds() const { return seconds_since(start_); }
-
- private:
-  Clock::time_point start_ = Clock::now();
-};
 
 const char* word_of(int tag) {
   switch (tag) {
@@ -52,6 +35,8 @@ const char* word_of(int tag) {
       return tag >= tag_x && tag <= tag_faces ? "SURFACE" : "LOAD";
   }
 }
+
+constexpr double last_words = 0.5;  // s that messages of a program that has ended may be under way
 
 std::atomic<bool> ending{false};  // a failure is being told: what happens meanwhile changes nothing
 
@@ -70,6 +55,8 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   bool open = true;
   std::vector<MPI_Request> started;
   std::unique_ptr<StandIn> stand_in;  // then there is no inter
+  std::unique_ptr<Lifeline> line;
+  std::optional<Patience> cut;  // since when the line is
 
   static std::shared_ptr<State> active;  // survives the Channel while an exception is on its way to be reported
 
@@ -136,7 +123,7 @@ void Channel::State::end_with_peer(int source) {
   MPI_Isend(nullptr, 0, MPI_BYTE, source, tag_ack, inter, &request);
   const Patience patience;  // the one that failed ends the job; if it cannot, this one does
   int sent = 0;
-  while (patience.seconds() < limits.acknowledge) {
+  while (patience.seconds() < limits.acknowledge && !(sent && line)) {  // by a port its job is another
     if (!sent) MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
     patience.rest();
   }
@@ -151,6 +138,11 @@ void Channel::State::look_for_failure() {
   MPI_Status status;
   check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &there, &status), "MPI_Iprobe");
   if (there) end_with_peer(status.MPI_SOURCE);
+  if (line && !cut && line->is_cut()) cut.emplace();
+  if (cut && cut->seconds() > last_words) {
+    inter = MPI_COMM_NULL;
+    end(exit_killed, fmt::format("{} died without a word: its connection is gone", peer));
+  }
 }
 
 /// A message with that tag has come.
@@ -184,12 +176,14 @@ void Channel::State::at_terminate() {
 // --- life
 // -----------------------------------------------------------------------------------------------------------------------
 
-Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits)
+Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits,
+                 std::unique_ptr<Lifeline> line)
     : state_(std::make_shared<State>()) {
   state_->mine = mine;
   state_->inter = inter;
   state_->role = role;
   state_->limits = limits;
+  state_->line = std::move(line);
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   state_->become_active();
 }
@@ -325,16 +319,7 @@ void Channel::receive(int tag, const char* message, void* data, size_t bytes) {
 
 void Channel::poll() { state_->look_for_failure(); }
 
-void Channel::share(void* data, size_t bytes) {
-  if (mine().size() == 1 || bytes == 0) return;
-  MPI_Request request;
-  check_mpi(MPI_Ibcast(data, int(bytes), MPI_BYTE, 0, mine().raw(), &request), "MPI_Ibcast");
-  const Patience patience;
-  for (int done = 0; !done;) {
-    check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
-    if (!done) patience.rest();
-  }
-}
+void Channel::share(void* data, size_t bytes) { share_politely(mine(), data, bytes); }
 
 void Channel::fail(int code, const std::string& text) { state_->end(code, text); }
 

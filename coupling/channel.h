@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/parallel/mpi.h"
+#include "coupling/lifeline.h"
 
 namespace bw::coupling {
 
@@ -53,7 +54,9 @@ struct ChannelLimits {
 class Channel {
  public:
   /// Takes over `inter`, the intercommunicator of the two sides, and installs itself as the failure hook of guarded().
-  Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits);
+  /// line: to the other leader, of programs that mpirun did not start together.
+  Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimits& limits,
+          std::unique_ptr<Lifeline> line = nullptr);
   /// Without another program: the leader's is stood in for, the other ranks' is null.
   Channel(const Comm& mine, std::unique_ptr<StandIn> stand_in, Role role);
   /// Ends the program with exit_left if the coupling is still open, unless an exception is on its way to be reported.

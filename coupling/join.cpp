@@ -13,6 +13,7 @@
 #include "common/app/timers.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
+#include "coupling/port.h"
 
 namespace bw::coupling {
 namespace {
@@ -55,6 +56,7 @@ std::vector<JoinBlock> ask_all(const Comm& world, const JoinBlock& me, double li
 }  // namespace
 
 Joined join(const Comm& world, Role role, const CouplingCase& cs) {
+  if (cs.join == "port") return join_by_port(world, role, cs);
   const Timed timed("join", Timed::waiting);
   if (world.size() == 1) return {world, nullptr};
   set_notice(" before the programs had joined");

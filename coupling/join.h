@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the programs of one mpirun find each other: each says its role, by name, over the world.
+// How the two programs find each other. In one mpirun each says its role, by name, over the world; started apart they
+// meet by a file (port.h).
 #pragma once
 #include <memory>
 
@@ -13,7 +14,8 @@ struct Joined {
   std::unique_ptr<Channel> channel;  ///< none: this program runs alone
 };
 
-/// Collective over the world, in any order of programs on the command line. Call it when the input has been read and
+/// Collective over the world, in any order of programs on the command line; with case.join "port" the world is this
+/// program's. Call it when the input has been read and
 /// checked: a program that dies before it joins is noticed (at once if it aborts, at case.join_limit if it hangs).
 Joined join(const Comm& world, Role role, const CouplingCase& cs);
 inline Joined join(const Session& session, Role role, const CouplingCase& cs) {

@@ -81,6 +81,7 @@ CouplingCase case_of(const fsi_options& options) {
   cs.reference_pressure = options.p_ref;
   cs.silence_limit = options.silence_limit;
   cs.join_limit = options.join_limit;
+  if (options.port_file) cs.join = "port", cs.port_file = options.port_file;
   if (!(cs.reference_pressure >= 0)) throw InputError("fsi_fluid_open: p_ref: a pressure >= 0 was expected");
   if (!(cs.silence_limit > 0) || !(cs.join_limit > 0))
     throw InputError("fsi_fluid_open: silence_limit, join_limit: times > 0 were expected");
@@ -141,7 +142,8 @@ void fsi_defaults(fsi_options* options) {
                          .upper = {1e30, 1e30, 1e30},
                          .scheme = FSI_SCHEME_NONE,
                          .silence_limit = 600,
-                         .join_limit = 120};
+                         .join_limit = 120,
+                         .port_file = nullptr};
 }
 
 const char* fsi_version() { return version(); }

@@ -2,6 +2,7 @@
 #include "coupling/check/driver.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,8 +11,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <thread>
 
+#include "common/app/error.h"
 #include "common/app/log.h"
 #include "coupling/check/scenario.h"
 
@@ -74,12 +78,39 @@ std::string bytes_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// What Open MPI needs to join programs of two mpiruns.
+class MeetingServer {
+ public:
+  void start() {
+    process_ = fork();
+    if (process_ == 0) {
+      execlp("ompi-server", "ompi-server", "--no-daemonize", "-r", file_.c_str(), nullptr);
+      _exit(127);
+    }
+    for (int i = 0; i < 100 && !std::filesystem::exists(file_); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (!std::filesystem::exists(file_)) throw InputError("--port: ompi-server does not start");
+  }
+  ~MeetingServer() {
+    if (process_ <= 0) return;
+    kill(process_, SIGTERM);
+    waitpid(process_, nullptr, 0);
+    std::filesystem::remove(file_);
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_ = std::filesystem::temp_directory_path() / fmt::format("fsi-check-server.{}", getpid());
+  pid_t process_ = 0;
+};
+
 class Driver {
  public:
   Driver(const std::string& self, const Options& options, const std::vector<std::string>& arguments)
       : self_(self),
         options_(options),
         folder_(std::filesystem::temp_directory_path() / fmt::format("fsi-check.{}", getpid())) {
+    if (!options.port.empty()) server_.start();
     for (const std::string& word : arguments) arguments_ += fmt::format(" {}", quoted(word));
     for (const std::string& word : options.command) program_ += fmt::format(" {}", quoted(word));
     std::filesystem::create_directories(folder_);
@@ -115,6 +146,7 @@ class Driver {
  private:
   std::string record_of(const std::string& scenario) const { return folder_ / scenario; }
   Ended play(const std::string& scenario, int ranks, bool turned) const {
+    if (!options_.port.empty()) return play_apart(scenario, ranks, turned);
     const std::string player = fmt::format("-n 1 {}{} --scenario {} --record {}", quoted(self_), arguments_, scenario,
                                            quoted(record_of(scenario)));
     const std::string program = fmt::format("-n {}{}", ranks, program_);
@@ -122,9 +154,29 @@ class Driver {
                              turned ? player : program));
   }
 
+  /// Two mpiruns, which meet by the port file; the one of a run that died is there first.
+  Ended play_apart(const std::string& scenario, int ranks, bool turned) const {
+    std::ofstream(options_.port) << "BWCOUPL 1\nhost localhost\ntcp 1\ntoken 0123456789abcdef\nmpi none\n";
+    const std::string player =
+        fmt::format("{}{} --scenario {} --record {}", quoted(self_), arguments_, scenario, quoted(record_of(scenario)));
+    const auto run = [&](int n, const std::string& program) {
+      return start(fmt::format("timeout -k 2 {} mpirun --ompi-server file:{} -n {} {} 2>&1", patience,
+                               quoted(server_.file()), n, program));
+    };
+    auto first = std::async(std::launch::async, [&] { return turned ? run(ranks, program_) : run(1, player); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(turned ? 1000 : 0));
+    const Ended second = turned ? run(1, player) : run(ranks, program_), one = first.get();
+    const Ended& played = turned ? second : one;
+    Ended ended = turned ? one : second;
+    if (played.code == exit_found_wanting || (ended.code == 0 && played.code < 128)) ended.code = played.code;
+    ended.text = played.text + ended.text;
+    return ended;
+  }
+
   std::string self_, arguments_, program_;
   const Options& options_;
   std::filesystem::path folder_;
+  MeetingServer server_;
 };
 
 bool is_wanted(const Scenario& scenario, const Options& options) {

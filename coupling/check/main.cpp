@@ -18,7 +18,8 @@ int play(int argc, char** argv, const check::Options& options) {
   Session session(argc, argv);
   return guarded(session, [&]() -> int {
     CouplingCase cs;
-    cs.join_limit = 30;
+    cs.join_limit = options.port.empty() ? 30 : 10;
+    if (!options.port.empty()) cs.join = "port", cs.port_file = options.port;
     const bool solid = options.play == "solid";
     const Joined joined = join(session, solid ? Role::solid : Role::fluid, cs);
     if (!joined.channel) throw CodedError(check::exit_found_wanting, "the program under test has not the other role");

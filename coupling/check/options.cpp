@@ -19,6 +19,8 @@ const char* usage() {
          "  --limit S                   longest time from an accident to the end of both programs (2)\n"
          "  --windows N                 windows of a scenario (10)\n"
          "  --window S                  their longest duration (a hundredth of edge/c; 20 stable steps of the solid)\n"
+         "  --port FILE                 PROGRAM is started apart and met by this port file (an old one is there "
+         "first)\n"
          "playing the solid, a cube in gas at rest:\n"
          "  --centre X Y Z  --edge M    of the cube (0.5 0.5 0.5, 0.2)\n"
          "  --p0 PA --rho KG/M3 --c M/S the gas (p-ref, 1.225, 340.3)\n"
@@ -73,6 +75,7 @@ Options read_options(int argc, char** argv) {
       {"--scenario", [&] { o.scenario = next("--scenario"); }},
       {"--record", [&] { o.record = next("--record"); }},
       {"--scheme", [&] { o.scheme = next("--scheme"); }},
+      {"--port", [&] { o.port = next("--port"); }},
       {"--only", [&] { o.only = split(next("--only")); }},
       {"--skip", [&] { o.skip = split(next("--skip")); }},
       {"--p-ref", [&] { real(o.p_ref); }},

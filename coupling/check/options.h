@@ -26,6 +26,7 @@ struct Options {
   int windows = 10;
   int ranks = 1;       ///< of the program under test
   double limit = 2;    ///< s from an accident to the end of both programs
+  std::string port;    ///< port file by which the program under test is met; empty: one mpirun
   std::string record;  ///< inside mpirun: file for what must not depend on ranks
 
   double ambient() const { return p0 < 0 ? p_ref : p0; }

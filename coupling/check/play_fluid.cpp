@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
-#include <thread>
 
 #include "common/math/sum.h"
 #include "coupling/check/scenario.h"
@@ -113,7 +111,7 @@ void Fluid::have_accident(const FluidSide& side, Loads loads) {
   if (is("fail")) channel.fail(42, "fails on purpose");
   if (is("death")) raise(SIGKILL);
   if (is("silence")) {
-    std::this_thread::sleep_for(std::chrono::seconds(20));
+    keep_silent(channel, o);
     found_wanting("the program waits in silence longer than its limit");
   }
   const Window& window = side.window();

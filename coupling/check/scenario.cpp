@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "common/app/error.h"
 #include "common/app/log.h"
@@ -111,6 +112,16 @@ void found_wanting(const std::string& text) { throw CodedError(exit_found_wantin
 void mark_accident() {
   const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   error_line(fmt::format("accident at {:.6f}", now));
+}
+
+void keep_silent(Channel& channel, const Options& options) {
+  const bool apart = !options.port.empty();
+  std::this_thread::sleep_for(std::chrono::duration<double>(apart ? 2 * short_silence : 10 * short_silence));
+  if (!apart) return;
+  for (int i = 0; i < 200; ++i) {
+    channel.poll();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 void strange_hello(Channel& channel, HelloBlock h, const std::string& scenario) {

@@ -30,6 +30,8 @@ constexpr int exit_found_wanting = 9;
 void mark_accident();
 /// Says HELLO with what the scenario makes wrong in it, after the peer's has come.
 void strange_hello(Channel& channel, HelloBlock h, const std::string& scenario);
+/// Longer than the silence limit of the scenarios that wait for it; met by a port the program can't end this one.
+void keep_silent(Channel& channel, const Options& options);
 constexpr double short_silence = 2;  ///< s, silence limit of the scenarios that wait for it
 
 int play_solid(Channel& channel, const Options& options);

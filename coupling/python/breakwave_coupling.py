@@ -29,7 +29,8 @@ _doubles, _longs, _ints = ctypes.POINTER(_f64), ctypes.POINTER(_i64), ctypes.POI
 
 class _Options(ctypes.Structure):
     _fields_ = [("program", ctypes.c_char_p), ("version", ctypes.c_char_p), ("units", ctypes.c_char_p), ("p_ref", _f64), ("t0", _f64),
-                ("t_end", _f64), ("lower", _f64 * 3), ("upper", _f64 * 3), ("scheme", _int), ("silence_limit", _f64), ("join_limit", _f64)]
+                ("t_end", _f64), ("lower", _f64 * 3), ("upper", _f64 * 3), ("scheme", _int), ("silence_limit", _f64), ("join_limit", _f64),
+                ("port_file", ctypes.c_char_p)]
 
 
 class _Surface(ctypes.Structure):
@@ -134,10 +135,11 @@ class Fluid:
 
     program, version, units: for people. p_ref [Pa]: the case's coupling.reference_pressure. t0 [s]. t_end [s]: 0 = no opinion.
     lower, upper [m]: box of the fluid's domain. scheme: None, "fluid_first", "box1". Limits in s.
+    port_file: the case's coupling.port_file if csd was started apart, by an mpirun of its own.
     """
 
     def __init__(self, program, *, version="", units="SI", p_ref=101325.0, t0=0.0, t_end=0.0, lower=(-1e30,) * 3, upper=(1e30,) * 3,
-                 scheme=None, silence_limit=600.0, join_limit=120.0):
+                 scheme=None, silence_limit=600.0, join_limit=120.0, port_file=None):
         self._handle = None
         options = _Options()
         _library().fsi_defaults(ctypes.byref(options))
@@ -145,6 +147,7 @@ class Fluid:
         options.p_ref, options.t0, options.t_end, options.scheme = p_ref, t0, t_end, SCHEMES[scheme]
         options.lower, options.upper = (_f64 * 3)(*lower), (_f64 * 3)(*upper)
         options.silence_limit, options.join_limit = silence_limit, join_limit
+        options.port_file = os.fsencode(port_file) if port_file else None
         self._handle = _library().fsi_fluid_open(ctypes.byref(options))
         self.rank, self.size = _library().fsi_rank(self._handle), _library().fsi_size(self._handle)
         self.t_end = _library().fsi_t_end(self._handle)

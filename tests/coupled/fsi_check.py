@@ -54,6 +54,8 @@ plate = (SOURCE / "run" / "cases" / "plate" / "case.toml").read_text(encoding="u
 (OUT / "far.toml").write_text('[fluid.charge]\ncentre = [0, 0, 5]\nmass = "1 kg"\n', encoding="utf-8")
 check("cfd", "solid", [BUILD / "bin" / "cfd", OUT / "gas.toml"])
 check("csd", "fluid", [BUILD / "bin" / "csd", OUT / "plate.toml"])
+(OUT / "apart.toml").write_text(GAS + f'[coupling]\njoin = "port"\nport_file = "{OUT}/port"\n', encoding="utf-8")
+check("cfd by a port", "solid", [BUILD / "bin" / "cfd", OUT / "apart.toml"], "--port", OUT / "port", *([] if ALL else ["--only", "turned,nan,death"]))
 check("acoustic.py", "solid", [PYTHON, FLUIDS / "acoustic.py"], *([] if ALL else ["--only", "piston,split,degenerate,empty,vanish,ranks_2,nan,fail"]))
 check("airblast.py before the blast arrives", "solid", [PYTHON, FLUIDS / "airblast.py", OUT / "far.toml"], "--only",
       "rest,degenerate,empty,vanish,short_windows")

@@ -31,6 +31,11 @@ endif()
 if(TARGET breakwave_coupling)
   add_test(NAME coupled_other_fluids COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/other_fluids.py
            ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/other_fluids)
+  find_program(OMPI_SERVER ompi-server)
+  if(OMPI_SERVER AND TARGET csd AND TARGET cfd)
+    add_test(NAME coupled_ports COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/ports.py
+             ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/ports)
+  endif()
   add_test(NAME coupled_fsi_check COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/fsi_check.py
            ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/fsi_check)
 endif()

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Waiting that leaves the cores to the other program.
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "common/parallel/mpi.h"
+
+namespace bw::coupling {
+
+/// Sleeps longer the longer one waits: busy waiting would steal the other program's cores.
+class Patience {
+ public:
+  void rest() const {
+    const double waited = seconds();
+    if (waited < 50e-6) return;
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(waited / 64, 50e-6, 2e-3)));
+  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Rank 0's bytes to all ranks.
+inline void share_politely(const Comm& comm, void* data, size_t bytes) {
+  if (comm.size() == 1 || bytes == 0) return;
+  MPI_Request request;
+  check_mpi(MPI_Ibcast(data, int(bytes), MPI_BYTE, 0, comm.raw(), &request), "MPI_Ibcast");
+  const Patience patience;
+  for (int done = 0; !done;) {
+    check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+    if (!done) patience.rest();
+  }
+}
+
+}  // namespace bw::coupling
