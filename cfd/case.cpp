@@ -74,7 +74,7 @@ void FluidCase::describe(Keys& k) {
   k.tables("inflow", inflow, "states of sides declared inflow, subsonic_inflow or far_field");
   k.tables("burn", burn, "programmed burn of an explosive");
   k.table("afterburn", afterburn, "products that burn on: further energy, released at the same pace in all of them");
-  k.tables("body", body, "bodies with prescribed motion, when cfd runs alone");
+  k.tables("body", body, "bodies with prescribed motion, or moved by the flow (fluid_body_<name>.csv), when cfd runs alone");
   k.tables("gauge", gauge, "pressure histories at points: fluid_gauges.csv; what they measured: fluid_gauges.json");
   k.tables("plane", plane, "slices through time, and maps of peak overpressure and impulse on them");
   k.table("map", map, "peak overpressure, impulse, arrival and duration in the whole domain: map_*.vtkhdf at the end");
@@ -205,6 +205,10 @@ void FluidCase::check(Keys& k) const {
     };
     named[0] == 'g' ? add(gauge) : add(plane);
   }
+  std::set<std::string> moved;
+  for (const auto& b : body)
+    if (const auto* free = std::get_if<FreeMotion>(&b.motion); free && (!moved.insert(b.name).second || b.name.find('/') != std::string::npos))
+      throw InputError(fmt::format("{}: expected a body with a name of its own without /, not \"{}\": it names its file", free->place, b.name));
   for (const auto& l : line)
     if (!inside(l.from) || !inside(l.to)) throw InputError(fmt::format("{}: expected a line inside the domain", l.place));
 }

@@ -138,6 +138,7 @@ std::string write_checkpoint(const Case& cs, const Model& m, const Books& books,
   sums.number("walls", WallSums{books.wall_impulse, books.face_impulse, books.lip_impulse, books.wall_energy,
                                 books.wall_mass, books.face_work, books.repeated});
   if (m.walls) m.walls->save(file.section("walls"));
+  if (m.bodies && !m.bodies->free().empty()) m.bodies->save(file.section("bodies"));
   out.save(file.section("output"));
   if (path) save_surface(m.walls->surface(), *path, file.section("surface"));
   file.finish();

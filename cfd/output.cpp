@@ -37,6 +37,18 @@ std::vector<History::Column> history_columns(const Case& cs) {
   return c;
 }
 
+std::vector<History::Column> free_body_columns() {
+  std::vector<History::Column> c{{"t", "s"}};
+  const auto vector = [&](const char* name, const char* unit) {
+    for (const char* axis : {" x", " y", " z"}) c.push_back({std::string(name) + axis, unit});
+  };
+  vector("centre", "m"), vector("velocity", "m/s"), vector("spin", "1/s"), vector("turn axis", "1");
+  c.push_back({"turn angle", "1"});
+  vector("force", "N"), vector("moment", "N m"), vector("impulse", "N s"), vector("angular momentum", "kg m^2/s");
+  c.push_back({"kinetic energy", "J"}), c.push_back({"work", "J"});
+  return c;
+}
+
 }  // namespace
 
 double stored_energy(const Model& m) {
@@ -81,12 +93,41 @@ Output::Output(const Case& cs, const Model& m, double t_end, const Restored* fro
     restore(m, *from);
   } else if (root_) {
     history_.emplace(cs.run.output.directory + "/fluid_history.csv", history_columns(cs));
+    open_free_bodies(m, nullptr);
+  }
+}
+
+void Output::open_free_bodies(const Model& m, const int64_t* rows) {
+  if (!root_ || !m.bodies) return;
+  for (const FreeBody& f : m.bodies->free()) {
+    const std::string path = fmt::format("{}/fluid_body_{}.csv", case_.run.output.directory, f.name);
+    if (rows)
+      free_bodies_.push_back(History::resume_rows(path, free_body_columns(), *rows));
+    else
+      free_bodies_.emplace_back(path, free_body_columns());
+  }
+}
+
+void Output::write_free_bodies(const Model& m) {
+  for (size_t i = 0; i < free_bodies_.size(); ++i) {
+    const RigidBody& b = m.bodies->free()[i].rigid;
+    const RigidBody::State& s = b.state();
+    const double half = norm(s.place.turn.v), angle = 2 * std::atan2(half, s.place.turn.w);
+    std::vector<double> row{m.state.t};
+    const auto add = [&](const Vec3& v) { row.insert(row.end(), {v.x, v.y, v.z}); };
+    add(b.centre()), add(b.velocity()), add(b.spin()), add(half > 0 ? s.place.turn.v / half : Vec3{0, 0, 1});
+    row.push_back(angle);
+    add(s.force), add(s.moment), add(s.impulse), add(b.angular_momentum());
+    row.push_back(b.kinetic_energy()), row.push_back(s.work);
+    free_bodies_[i].row(row);
   }
 }
 
 void Output::save(const Saved& to) {
   if (history_) history_->flush();
   to.number("rows", history_ ? history_->rows() : int64_t(0));
+  for (History& table : free_bodies_) table.flush();
+  to.number("body_rows", free_bodies_.empty() ? int64_t(0) : free_bodies_[0].rows());
   to.same("numbers", std::vector<double>{dt_, t_row_, t_fields_, active_share_, p_max_});
   to.same("sums", std::vector<FluidSums>{first_, last_});
   records_.save(to.section("records"));
@@ -95,6 +136,8 @@ void Output::save(const Saved& to) {
 void Output::restore(const Model& m, const Restored& from) {
   const int64_t rows = from.number<int64_t>("rows");
   if (root_) history_.emplace(History::resume_rows(case_.run.output.directory + "/fluid_history.csv", history_columns(case_), rows));
+  const int64_t body_rows = from.has("body_rows") ? from.number<int64_t>("body_rows") : 0;
+  open_free_bodies(m, &body_rows);
   const std::vector<double> n = from.same<double>("numbers");
   dt_ = n.at(0), t_row_ = n.at(1), t_fields_ = n.at(2), active_share_ = n.at(3), p_max_ = n.at(4);
   const std::vector<FluidSums> sums = from.same<FluidSums>("sums");
@@ -168,6 +211,7 @@ void Output::write_row(const Model& m, const Books& books) {
     row.push_back(v);
   if (m.setup.afterburn) row.push_back(b.afterburn), row.push_back(m.setup.afterburn->share);
   if (history_) history_->row(row);
+  write_free_bodies(m);
 }
 
 void Output::write_fields(const Model& m) {
@@ -243,6 +287,14 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   };
   add("wall impulse", books.wall_impulse);
   add("face impulse", books.face_impulse);
+  if (m.bodies && !m.bodies->free().empty()) {
+    Vec3 momentum;
+    double kinetic = 0, work = 0;
+    for (const FreeBody& f : m.bodies->free())
+      momentum += f.rigid.mass().mass * f.rigid.velocity(), kinetic += f.rigid.kinetic_energy(), work += f.rigid.state().work;
+    add("free bodies", momentum);
+    s.energies.push_back({"free_bodies_kinetic", kinetic}), s.energies.push_back({"free_bodies_work", work});
+  }
   if (status != "failed") {
     const Booked b = books.booked(m);
     if (m.setup.afterburn) s.energies.push_back({"afterburn", b.afterburn});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run writes: fluid_history.csv, fluid_line_*.csv, fluid_*.vtkhdf with their series, what cfd/records.h keeps,
+// What a run writes: fluid_history.csv, fluid_body_*.csv, fluid_line_*.csv, fluid_*.vtkhdf with their series, what cfd/records.h keeps,
 // fluid_summary.json; and signs of life.
 #pragma once
 #include <chrono>
@@ -35,6 +35,8 @@ class Output {
   };
   PointValues at(const Model& m, const Vec3& x) const;
   void write_row(const Model& m, const Books& books);
+  void open_free_bodies(const Model& m, const int64_t* rows);
+  void write_free_bodies(const Model& m);
   void write_fields(const Model& m);
   void write_lines(const Model& m);
   double updates(const Model& m) const;
@@ -47,6 +49,7 @@ class Output {
     explicit Folder(const std::string& path) { make_folder(path); }
   } folder_;  ///< before what opens files in it
   std::optional<History> history_;
+  std::vector<History> free_bodies_;
   Records records_;
   VtkSeries series_;
   Schedule fields_, rows_;

@@ -27,11 +27,11 @@ class BodyMotion final : public WallMotion {
   const coupling::WetSurface& surface() const override { return surface_; }
   std::vector<Vec3> x() const override { return surface_.x; }
   std::vector<Vec3> velocity(double dt) const override {
-    std::vector<Vec3> v = bodies_.positions(t_ + dt);
+    std::vector<Vec3> v = bodies_.positions(t_, dt);
     for (size_t i = 0; i < v.size(); ++i) v[i] = (v[i] - surface_.x[i]) / dt;
     return v;
   }
-  std::vector<Vec3> x_end(double dt) const override { return bodies_.positions(t_ + dt); }
+  std::vector<Vec3> x_end(double dt) const override { return bodies_.positions(t_, dt); }
 
  private:
   Bodies& bodies_;
@@ -97,7 +97,8 @@ int run_alone(const Case& cs, Model& m) {
     double h = 1e300;
     for (int d = 0; d < 3; ++d)
       if (s.used[size_t(d)]) h = std::min(h, s.h[d]);
-    m.bodies.emplace(cs.fluid.body, ShapeSetting{cs.fluid.grid.lower, cs.fluid.grid.upper, h});
+    m.bodies.emplace(cs.fluid.body, ShapeSetting{cs.fluid.grid.lower, cs.fluid.grid.upper, h, s.used});
+    if (from && !m.bodies->free().empty()) m.bodies->restore(from->file.section("bodies"));
     motion.emplace(*m.bodies);
     add_walls(m, cs.coupling.reference_pressure);
     if (from) motion->go_to(from->head.t);
@@ -117,10 +118,12 @@ int run_alone(const Case& cs, Model& m) {
   const auto steps_left = [&] { return cs.run.time.max_steps == 0 || m.state.step < cs.run.time.max_steps; };
   try {
     while (m.state.t < t_end && steps_left()) {
-      const double t0 = m.state.t, next = out.next_time(t0), wanted = step_towards(t0, next, courant_step(cs, m, sweep));
+      const double t0 = m.state.t, next = out.next_time(t0), most = m.bodies ? m.bodies->largest_step() : 1e300,
+                   wanted = step_towards(t0, next, std::min(courant_step(cs, m, sweep), most));
       if (motion) motion->go_to(t0);
       coupling::Loads loads;
       const double dt = step(m, sweep, books, wanted, motion ? &*motion : nullptr, true, &loads);
+      if (motion) m.bodies->advance(dt, loads, cs.coupling.reference_pressure);
       m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
       out.write_due(m, books);
       out.tick(m, dt, sweep.stepped());

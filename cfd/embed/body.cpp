@@ -34,7 +34,7 @@ Placement OscillationMotion::at(double t) const {
   return {((1 - std::cos(w * t)) / w) * velocity, {}, {0, 0, 1}, 0};
 }
 
-Bodies::Bodies(const std::vector<BodyCase>& bodies, const ShapeSetting& setting) {
+Bodies::Bodies(const std::vector<BodyCase>& bodies, const ShapeSetting& setting) : setting_(setting) {
   for (size_t b = 0; b < bodies.size(); ++b) {
     const BodyCase& body = bodies[b];
     ShapeSetting wanted = setting;
@@ -54,6 +54,9 @@ Bodies::Bodies(const std::vector<BodyCase>& bodies, const ShapeSetting& setting)
       surface_.face_id.push_back(int64_t(surface_.face_id.size()));
     }
     motion_.push_back(body.motion);
+    free_of_.push_back(-1);
+    if (const auto* free = std::get_if<FreeMotion>(&body.motion))
+      add_free(body, *free, int32_t(surface_.quads.size() - f.quads.size()));
     fixed_ = fixed_ && std::holds_alternative<FixedMotion>(body.motion);
   }
   for (size_t i = 0; i < X_.size(); ++i) surface_.node_id.push_back(int64_t(i));
@@ -62,11 +65,22 @@ Bodies::Bodies(const std::vector<BodyCase>& bodies, const ShapeSetting& setting)
   surface_.topo_version = 1;
 }
 
-std::vector<Vec3> Bodies::positions(double t) const {
-  std::vector<Placement> place;
-  for (const Motion& m : motion_) place.push_back(std::visit([&](const auto& motion) { return motion.at(t); }, m));
+std::vector<Vec3> Bodies::positions(double t, double dt) const {
+  std::vector<Placement> place(motion_.size());
+  std::vector<RigidBody::Place> free;
+  for (size_t b = 0; b < motion_.size(); ++b)
+    std::visit(
+        [&](const auto& motion) {
+          if constexpr (requires { motion.at(t); }) place[b] = motion.at(t + dt);
+        },
+        motion_[b]);
+  for (const FreeBody& f : free_) free.push_back(dt > 0 ? f.rigid.after(dt) : f.rigid.place());
   std::vector<Vec3> x(X_.size());
-  for (size_t i = 0; i < x.size(); ++i) x[i] = place[size_t(body_of_[i])](X_[i]);
+  for (size_t i = 0; i < x.size(); ++i) {
+    const size_t b = size_t(body_of_[i]);
+    const int32_t f = free_of_[b];
+    x[i] = f < 0 ? place[b](X_[i]) : free_[size_t(f)].rigid.position(X_[i], free[size_t(f)]);
+  }
   return x;
 }
 

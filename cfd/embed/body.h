@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stand-alone bodies, [[fluid.body]]: a shape, where it is turned, and how it moves. Together they are one surface.
+// Stand-alone bodies, [[fluid.body]]: a shape, where it is turned, and how it moves: as prescribed, or as the flow
+// pushes it. Together they are one surface.
 #pragma once
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "cfd/embed/rigid.h"
 #include "cfd/embed/shapes.h"
+#include "common/io/checkpoint.h"
+#include "coupling/loads.h"
 
 namespace bw::cfd {
 
@@ -93,7 +99,54 @@ struct RotationMotion {
   }
   Placement at(double t) const { return {t * velocity, point, axis, rate * t}; }
 };
-using Motion = std::variant<FixedMotion, VelocityMotion, TableMotion, PulseMotion, OscillationMotion, RotationMotion>;
+/// A rigid body that the flow's pressures move.
+struct FreeMotion {
+  static constexpr auto name = "free";
+  double density = 0, mass = 0;
+  std::vector<double> inertia;
+  std::optional<Vec3> centre;
+  Vec3 velocity, spin;
+  bool plane = false;
+  std::array<bool, 6> free{true, true, true, true, true, true};
+  std::string place;
+  template <class K>
+  void describe(K& k) {
+    k.optional("density", density, dim::density, "of the body, whose surface is closed; or mass");
+    k.optional("mass", mass, dim::mass,
+               "of the body (in a flow of two dimensions: of its length in the domain); or density");
+    k.optional("inertia", inertia, Dim{1, 2, 0, 0},
+               "moments about axes along x, y, z through its centre of mass; absent: of its surface, filled evenly");
+    const double none = 1e300;
+    Vec3 at{none, none, none};
+    k.optional("centre", at, dim::length, "of mass, at the start; absent: of its surface, filled evenly");
+    if (at.x != none) centre = at;
+    k.optional("velocity", velocity, dim::velocity, "at the start");
+    k.optional("spin", spin, dim::spin, "at the start, about axes along x, y, z");
+    k.optional("plane", plane, "it moves along x and y and turns about z only");
+    std::vector<std::string> fixed;
+    k.optional("fixed", fixed, "directions in which it doesn't move: of x, y, z, turn_x, turn_y, turn_z");
+    static constexpr const char* names[6] = {"x", "y", "z", "turn_x", "turn_y", "turn_z"};
+    if (plane) free[2] = free[3] = free[4] = false;
+    for (const std::string& f : fixed) {
+      const auto i = std::find(std::begin(names), std::end(names), f) - std::begin(names);
+      k.expect(i < 6, "fixed", "of \"x\", \"y\", \"z\", \"turn_x\", \"turn_y\", \"turn_z\", not \"" + f + "\"");
+      if (i < 6) free[size_t(i)] = false;
+    }
+    k.expect(k.is_manual() || (density > 0) != (mass > 0), "density",
+             "a positive density, or a positive mass, not both");
+    k.expect(density >= 0 && mass >= 0, "mass", "a positive mass");
+    k.expect(
+        inertia.empty() || (inertia.size() == 3 && inertia[0] > 0 && inertia[1] > 0 && inertia[2] > 0 && density == 0),
+        "inertia", "three positive moments, beside a mass");
+    for (int d = 0; d < 3; ++d) {
+      k.expect(free[size_t(d)] || velocity[d] == 0, "velocity", "0 in directions in which the body doesn't move");
+      k.expect(free[size_t(3 + d)] || spin[d] == 0, "spin", "0 about axes about which the body doesn't turn");
+    }
+    place = k.is_manual() ? "" : k.where(density > 0 ? "density" : "mass");
+  }
+};
+using Motion =
+    std::variant<FixedMotion, VelocityMotion, TableMotion, PulseMotion, OscillationMotion, RotationMotion, FreeMotion>;
 
 struct BodyCase {
   std::string name;
@@ -134,23 +187,53 @@ struct BodyCase {
   };
 };
 
+/// A body that the flow moves, and its faces in its own axes.
+struct FreeBody {
+  std::string name;
+  RigidBody rigid;
+  int32_t first_face, last_face;  ///< [first, last) of the surface
+  std::vector<Vec3> area, lever;  ///< [face] A [m^2], sum of r x A over its triangles, r from the centre of mass [m^3]
+};
+
 /// All bodies of a case as one surface.
 class Bodies {
  public:
+  /// InputError for a free body without mass properties.
   Bodies(const std::vector<BodyCase>& bodies, const ShapeSetting& setting);
   bool empty() const { return surface_.quads.empty(); }
-  /// Positions at t, velocities zero; ids, bodies and flags set.
+  /// Positions at t, the time to which the free bodies have come; velocities zero; ids, bodies and flags set.
   const coupling::WetSurface& at(double t);
-  std::vector<Vec3> positions(double t) const;
+  /// A window of dt after t.
+  std::vector<Vec3> positions(double t, double dt = 0) const;
   /// Nothing ever moves.
   bool fixed() const { return fixed_; }
 
+  // --- bodies that the flow moves
+  const std::vector<FreeBody>& free() const { return free_; }
+  /// The window of dt is over: its loads move the free bodies. Faces in closed gaps, whose loads are dry, take the
+  /// pressure of the faces beside them.
+  void advance(double dt, const coupling::Loads& loads, double p_ref);
+  /// s: with longer steps a body lighter than the gas that it moves would swing.
+  double largest_step() const { return largest_step_; }
+  void save(const Saved& to) const;
+  void restore(const Restored& from);
+
  private:
+  void add_free(const BodyCase& body, const FreeMotion& motion, int32_t first_face);
+  /// Pressure above p_ref on the body's faces.
+  std::vector<double> pressures_of(const FreeBody& f, const RigidBody::Place& at, const coupling::Loads& loads,
+                                   double p_ref) const;
+
   coupling::WetSurface surface_;
+  ShapeSetting setting_;
   std::vector<Vec3> X_;           ///< [n_nodes] at t = 0
   std::vector<int32_t> body_of_;  ///< [n_nodes]
   std::vector<Motion> motion_;
+  std::vector<FreeBody> free_;
+  std::vector<int32_t> free_of_;                ///< [body] into free_, -1: prescribed
+  std::vector<std::array<int32_t, 4>> beside_;  ///< [face] the faces across its edges, -1: none; of free bodies
   bool fixed_ = true;
+  double largest_step_ = 1e300;
 };
 
 }  // namespace bw::cfd

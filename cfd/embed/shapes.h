@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes of stand-alone bodies ([[fluid.body]]) as surfaces of quads, normals into the fluid.
 #pragma once
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +16,7 @@ namespace bw::cfd {
 struct ShapeSetting {
   Vec3 lower, upper;  ///< of the domain [m]
   double h = 0;       ///< facet size wanted [m]
+  std::array<bool, 3> active{true, true, true};  ///< directions with more than one cell
   double far() const { return 2 * norm(upper - lower); }
 };
 /// x and quads of a surface; nothing else is filled by shapes.

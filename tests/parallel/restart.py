@@ -19,7 +19,7 @@ from fields import history  # noqa: E402
 from launch import ENVIRONMENT  # noqa: E402
 from verification.case import BUILD, WORK, output  # noqa: E402
 
-# levels that change, a burn under way, a body that covers and uncovers cells, records of all kinds
+# levels that change, a burn under way, a body that covers and uncovers cells, one that the flow moves, records of all kinds
 CASE = ("[time]\nend = \"30 us\"\n" + output("5 us", "0 s") + "CHECKPOINT"
         + "[fluid]\nlower = [0, 0, 0]\nupper = [0.4, 0.2, 0.2]\ncells = [64, 32, 1]\n"
         + 'boundary = {x_upper = "outflow", y_upper = "outflow"}\n'
@@ -30,6 +30,8 @@ CASE = ("[time]\nend = \"30 us\"\n" + output("5 us", "0 s") + "CHECKPOINT"
         + 'unburnt = true\npressure = 101325.0\n[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.08, 0.06, 0.1]]\n'
         + '[[fluid.body]]\nname = "plate"\nshape = {kind = "box", lower = [0.15, 0.03, -0.1], upper = [0.17, 0.1, 0.3]}\n'
         + 'motion = {kind = "velocity", value = [600.0, 0.0, 0.0]}\n'
+        + '[[fluid.body]]\nname = "stone"\nturn_angle = 20.0\nturn_point = [0.08, 0.15, 0]\n'
+        + 'shape = {kind = "box", lower = [0.06, 0.14, 0], upper = [0.1, 0.16, 0.2]}\nmotion = {kind = "free", density = 100.0, plane = true}\n'
         + '[[fluid.gauge]]\nname = "near"\nposition = [0.12, 0.07, 0.1]\n[[fluid.gauge]]\nname = "swept"\nposition = [0.178, 0.06, 0.1]\n'
         + '[[fluid.plane]]\nname = "cut"\nnormal = "y"\nat = 0.05\nevery = "4 us"\n[fluid.map]\ncells = [40, 20, 1]\n')
 

@@ -94,6 +94,8 @@ def swap(text, old, new):
     return text.replace(old, new)
 
 
+FREE = '[[fluid.body]]\nname = "a"\nshape = {{kind = "box", lower = [0.02, 0, 0], upper = [0.04, 0.01, 0.01]}}\nmotion = {{kind = "free", {}}}\n'
+
 # name: program, case text, what the message must hold (besides file:line), other files
 CASES = {
     "unknown key": ("csd", swap(SOLID, "poisson_ratio", "poisson_ration"), r"poisson_ratio", {}),
@@ -122,6 +124,10 @@ CASES = {
     "unknown way with slits": ("cfd", FLUID + '[fluid.walls]\nslits = "open"\n', r"case.toml:\d+:.*slits.*centre", {}),
     "far field without a state": ("cfd", FLUID.replace("cells = [16, 1, 1]", 'cells = [16, 1, 1]\nboundary = {x_upper = "far_field"}'), r"boundary.*far_field", {}),
     "too much noise": ("cfd", FLUID.replace("cells = [16, 1, 1]", "cells = [16, 1, 1]\nperturbation = 0.7"), r"perturbation", {}),
+    "free body with mass and density": ("cfd", FLUID + FREE.format("density = 1, mass = 1"), r"case.toml:\d+:.*density.*not both", {}),
+    "free body in a direction that isn't": ("cfd", FLUID + FREE.format('mass = 1, fixed = ["x", "turn"]'), r"fixed.*turn_x", {}),
+    "free body that flies where it can't": ("cfd", FLUID + FREE.format("mass = 1, plane = true, velocity = [0, 0, 1]"), r"velocity", {}),
+    "free plate without inertia": ("cfd", FLUID + FREE.format("mass = 1").replace("shape", "thin = true\nshape"), r"case.toml:\d+:.*inertia and centre", {}),
     "map without cells": ("cfd", FLUID + "[fluid.map]\ncells = [4, 0, 1]\n", r"cells", {}),
     "negative arrival": ("cfd", FLUID.replace("cells = [16, 1, 1]", 'cells = [16, 1, 1]\narrival_overpressure = "-1 Pa"'), r"arrival_overpressure", {}),
     "checkpoints that none keeps": ("cfd", FLUID.replace("[output]", "[checkpoint]\nevery_steps = 5\nkeep = 0\n[output]"), r"keep", {}),
