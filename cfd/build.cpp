@@ -74,6 +74,7 @@ Boundary make_boundary(const Medium& medium, const Case& cs) {
                      : kind == "periodic" ? SideKind::periodic
                      : kind == "inflow"   ? SideKind::inflow
                                           : SideKind::wall;
+    b.side[i].across = cs.fluid.grid.upper[int(i / 2)] - cs.fluid.grid.lower[int(i / 2)];
     for (const InflowCase& in : cs.fluid.inflow)
       if (in.side == names[i]) state_of(medium, cs, in, b.side[i].U);
   }

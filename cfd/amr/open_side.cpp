@@ -9,12 +9,14 @@ namespace {
 
 using State = double[Prim::stored];
 
-/// How far the incoming wave goes from the last cell's (0: the copy) to the given state's (1): the copy alone lets the
-/// mean drift; the given state's is wrong behind a shock, whose incoming wave is not that of the gas at rest.
-constexpr double share = 0.3;
+/// How far the incoming wave goes from the last cell's (0: the copy) to the given state's (1), times the domain's
+/// cells across: the copy alone lets the mean drift; the given state's is wrong behind a shock, whose incoming wave is
+/// not that of the gas at rest. So the mean is drawn back over some passages of the domain, however fine its cells: K =
+/// sigma c/L with sigma = 0.3 [Rudy & Strikwerda 1980: 0.27; Poinsot & Lele 1992: 0.25].
+constexpr double drawn_back = 0.6;
 
 /// arho1, arho2, v, p, alpha1 of the ghosts; what follows from them is left alone.
-void ghost_state(const BoundarySide& side, const State& last, const State& given, int d, double sign,
+void ghost_state(const BoundarySide& side, const State& last, const State& given, int d, double sign, double h,
                  const Floors& floors, State& out) {
   const double z = (last[Prim::arho1] + last[Prim::arho2]) * last[Prim::c], c = last[Prim::c],
                u = sign * last[Prim::v + d], u_f = sign * given[Prim::v + d];
@@ -27,6 +29,7 @@ void ghost_state(const BoundarySide& side, const State& last, const State& given
     return;
   }
   if (u <= -c) return;
+  const double share = std::min(drawn_back * h / side.across, 0.3);
   const double p = last[Prim::p], drawn = std::max(p + 0.5 * share * (given[Prim::p] - p + z * (u - u_f)), floors.p);
   out[Prim::v + d] = sign * (u + (p - drawn) / z);
   if (u >= 0)  // along the isentrope of the gas that leaves
@@ -62,7 +65,7 @@ void fill_open_side(const Medium& medium, const BoundarySide& side, int d, bool 
       bool same = true;
       for (int q = 0; q <= Prim::alpha1; ++q) same = same && last[q] == given[q];
       if (same) continue;
-      ghost_state(side, last, given, d, upper ? 1 : -1, medium.floors, out);
+      ghost_state(side, last, given, d, upper ? 1 : -1, s.h[d], medium.floors, out);
       double U[Cons::count], W[Prim::stored];
       std::visit(
           [&](const auto& pair) {
