@@ -132,6 +132,7 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
     const auto& quad = surface_.wet().quads[i];
     const Vec3 area = coupling::area_vector(surface_.wet().x, quad);
     const double size = norm(area);
+    faces[i].face = surface_.faces()[i];
     if (!(size > 0) || loads.impedance.empty()) continue;
     faces[i] = {surface_.faces()[i], area / size, loads.impedance[i] * size, 0};
     faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);

@@ -31,6 +31,14 @@ void rename_finished(const std::string& temporary, const std::string& path) {
   if (!synced || std::rename(temporary.c_str(), path.c_str()) != 0) failed(path);
 }
 
+int reserve_file(const std::string& path, uint64_t size) {
+  const int file = open(path.c_str(), O_WRONLY);
+  if (file < 0) return errno;
+  const int error = fallocate(file, 0, 0, off_t(size)) == 0 ? 0 : errno;
+  close(file);
+  return error == EOPNOTSUPP || error == ENOSYS ? 0 : error;  // not every file system can tell beforehand
+}
+
 void write_atomically(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".tmp";
   std::FILE* out = std::fopen(temporary.c_str(), "wb");

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
+#include "common/io/file.h"
 #include "common/io/hdf5_types.h"
 
 namespace bw::h5 {
@@ -54,12 +56,26 @@ Handle Group::transfer() const {
   return list;
 }
 
+/// On several ranks: room for so many bytes more, and for what HDF5 says about them. A collective write that finds the
+/// disk full need not return on all ranks; here all learn of it and fail alike.
+void Group::reserve(uint64_t bytes) const {
+  if (shared_->comm.size() == 1) return;
+  constexpr uint64_t at_first = 1 << 18, each = 1 << 12;  // HDF5's own
+  uint64_t& size = shared_->reserved;
+  size += bytes + (size == 0 ? at_first : each);
+  const int64_t error = shared_->comm.root() ? reserve_file(shared_->path, size) : 0;
+  if (const int64_t any = shared_->comm.max(error))
+    throw std::runtime_error(
+        fmt::format("{}: no room for {} bytes more: {}", shared_->path, bytes, std::strerror(int(any))));
+}
+
 File File::create(const std::string& path, const Comm& comm) {
   quiet();
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access(path, comm).get()), H5Fclose);
   if (file.get() < 0) failed(path, "creating the file");
-  Group root(std::make_shared<const Group::Shared>(Group::Shared{path, comm}),
+  Group root(std::make_shared<const Group::Shared>(Group::Shared{path, comm, 0}),
              Handle(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose));
+  root.reserve(0);
   return File(std::move(file), std::move(root));
 }
 
@@ -69,7 +85,7 @@ File File::open(const std::string& path, const Comm& comm) {
   if (file.get() < 0 && comm.size() == 1)  // its writer is still there, or has died: what a GrowingFile holds is whole
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose);
   if (file.get() < 0) failed(path, "opening the file");
-  Group root(std::make_shared<const Group::Shared>(Group::Shared{path, comm}),
+  Group root(std::make_shared<const Group::Shared>(Group::Shared{path, comm, 0}),
              Handle(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose));
   return File(std::move(file), std::move(root));
 }
@@ -151,6 +167,7 @@ void Group::write(const std::string& name, std::span<const T> mine, int columns,
     if (r < shared_->comm.rank()) before += all[size_t(r)];
     total += all[size_t(r)];
   }
+  reserve(total * width * sizeof(T));
   const int rank = columns == 1 ? 1 : 2;
   const hsize_t dims[2] = {total, width}, start[2] = {before, 0}, count[2] = {rows, width};
   const Handle space = owned(H5Screate_simple(rank, dims, nullptr), H5Sclose, "sizing " + name);

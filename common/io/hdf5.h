@@ -86,11 +86,13 @@ class Group {
   struct Shared {
     std::string path;
     Comm comm;
+    mutable uint64_t reserved;  // bytes, so far
   };
   Group(std::shared_ptr<const Shared> shared, Handle handle)
       : shared_(std::move(shared)), handle_(std::make_shared<Handle>(std::move(handle))) {}
   Handle owned(hid_t id, Handle::Closer closer, const std::string& what) const;
   void check(herr_t status, const std::string& what) const;
+  void reserve(uint64_t bytes) const;
   Handle transfer() const;  // collective on several ranks, as compressed arrays need it
   std::shared_ptr<const Shared> shared_;
   std::shared_ptr<Handle> handle_;

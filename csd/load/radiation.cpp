@@ -10,48 +10,84 @@ namespace bw::csd {
 
 void Radiation::begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest) {
   impulse_.assign(faces.size(), {});
-  work_ = 0;
-  faces_.clear(), place_.clear();
-  for (size_t i = 0; i < faces.size(); ++i)
-    if (faces[i].impedance > 0) faces_.push_back(faces[i]), place_.push_back(i);
-  force_.assign(faces_.size(), 0.0);
-  std::vector<double> around(mesh.X.size(), 0.0);
-  for (const RadiatingFace& f : faces_)
-    for (const NodeId n : mesh.nodes_of(f.face)) around[size_t(n)] += 0.25 * f.impedance;
-  const double h = s.dt_stable / s.local.shortest();
-  for (RadiatingFace& f : faces_) {
-    double share = 1;
-    for (const NodeId n : mesh.nodes_of(f.face))
-      share = std::min(share, largest * s.m[n] / (h * s.local.steps_of(n) * around[size_t(n)]));
-    f.impedance *= share;
+  work_ = 0, largest_ = largest;
+  if (std::none_of(faces.begin(), faces.end(), [](const RadiatingFace& f) { return f.impedance > 0; })) faces.clear();
+  const auto is_as_before = [](const RadiatingFace& a, const RadiatingFace& b) { return a.face == b.face; };
+  if (!std::equal(faces.begin(), faces.end(), faces_.begin(), faces_.end(), is_as_before)) mesh_nodes_ = 0;
+  faces_ = std::move(faces);
+  force_.assign(faces_.size(), 0.0), acting_.resize(faces_.size());
+  fit(mesh);
+  bound(s);
+}
+
+/// Nodes of the faces, if there are new ones.
+void Radiation::fit(const Mesh& mesh) {
+  if (mesh_nodes_ == mesh.X.size()) return;
+  mesh_nodes_ = mesh.X.size(), dt_ = 0;
+  nodes_.clear(), corner_.resize(faces_.size());
+  std::vector<int32_t> place(mesh_nodes_, -1);
+  for (size_t i = 0; i < faces_.size(); ++i) {
+    const auto quad = mesh.nodes_of(faces_[i].face);
+    for (size_t k = 0; k < 4; ++k) {
+      int32_t& at = place[size_t(quad[k])];
+      if (at < 0) at = int32_t(nodes_.size()), nodes_.push_back(quad[k]);
+      corner_[i][k] = at;
+    }
   }
+  around_ = Csr<int32_t>::build(int64_t(nodes_.size()), [&](auto&& add) {
+    for (size_t i = 0; i < corner_.size(); ++i)
+      for (const int32_t k : corner_[i]) add(k, int32_t(i));
+  });
+}
+
+void Radiation::bound(const State& s) {
+  dt_ = s.dt_stable;
+  const double h = dt_ / s.local.shortest();
+  std::vector<double> share(nodes_.size());
+  parallel_for(int64_t(nodes_.size()), [&](int64_t k) {
+    const NodeId n = nodes_[size_t(k)];
+    double sum = 0;
+    for (const int32_t i : around_[k]) sum += 0.25 * faces_[size_t(i)].impedance;
+    share[size_t(k)] = sum > 0 ? largest_ * s.m[n] / (h * s.local.steps_of(n) * sum) : 1;
+  });
+  parallel_for(int64_t(faces_.size()), [&](int64_t i) {
+    double least = 1;
+    for (const int32_t k : corner_[size_t(i)]) least = std::min(least, share[size_t(k)]);
+    acting_[size_t(i)] = least * faces_[size_t(i)].impedance;
+  });
 }
 
 void Radiation::add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f) {
+  if (faces_.empty()) return;
+  fit(mesh);
+  if (s.dt_stable > dt_) bound(s);
   parallel_for(int64_t(faces_.size()), [&](int64_t i) {
     const RadiatingFace& face = faces_[size_t(i)];
     Vec3 v;
-    for (const NodeId n : mesh.nodes_of(face.face)) v += 0.25 * s.v[n];
-    force_[size_t(i)] = -face.impedance * (dot(v, face.n) - face.told);
+    for (const int32_t k : corner_[size_t(i)]) v += 0.25 * s.v[nodes_[size_t(k)]];
+    force_[size_t(i)] = -acting_[size_t(i)] * (dot(v, face.n) - face.told);
   });
-  for (size_t i = 0; i < faces_.size(); ++i) {
-    const Vec3 part = (0.25 * force_[i]) * faces_[i].n;
-    for (const NodeId n : mesh.nodes_of(faces_[i].face)) f[n] += part;
-  }
+  parallel_for(int64_t(nodes_.size()), [&](int64_t k) {
+    Vec3& sum = f[nodes_[size_t(k)]];
+    for (const int32_t i : around_[k]) sum += (0.25 * force_[size_t(i)]) * faces_[size_t(i)].n;
+  });
 }
 
 void Radiation::book(const Mesh& mesh, const State& s, double h) {
-  for (size_t i = 0; i < faces_.size(); ++i) {
-    const RadiatingFace& face = faces_[i];
+  if (faces_.empty()) return;
+  fit(mesh);
+  work_ += parallel_sum(int64_t(faces_.size()), [&](int64_t i) {
+    const Vec3& normal = faces_[size_t(i)].n;
     double time = 0, way = 0;  // of its nodes
-    for (const NodeId n : mesh.nodes_of(face.face)) {
+    for (const int32_t k : corner_[size_t(i)]) {
+      const NodeId n = nodes_[size_t(k)];
       if (!s.local.is_due(n)) continue;
       const double quarter = 0.25 * h * s.local.steps_of(n);
-      time += quarter, way += quarter * dot(s.v[n], face.n);
+      time += quarter, way += quarter * dot(s.v[n], normal);
     }
-    impulse_[place_[i]] += (force_[i] * time) * face.n;
-    work_ += force_[i] * way;
-  }
+    impulse_[size_t(i)] += (force_[size_t(i)] * time) * normal;
+    return force_[size_t(i)] * way;
+  });
 }
 
 }  // namespace bw::csd

@@ -6,9 +6,10 @@
 // on top, as in linear acoustics, whatever w was. The impulse of it is given back in the next window, where the fluid
 // repays the gap: over the run the solid gets what the fluid gave.
 #pragma once
-#include <span>
+#include <array>
 #include <vector>
 
+#include "common/data/csr.h"
 #include "csd/mesh/mesh.h"
 #include "csd/state.h"
 
@@ -26,11 +27,12 @@ class Radiation {
  public:
   /// A window begins: its faces, and the largest h c/m of a node (h: its longest step; c: a quarter of the impedances
   /// around it). Beyond it impedances are taken smaller, so that the step stays stable: with forces by the last
-  /// half-step's velocity that needs (h/h_stable)^2 + h c/(2 m) < 1.
+  /// half-step's velocity that needs (h/h_stable)^2 + h c/(2 m) < 1. They are found anew when nodes were split, whose
+  /// children are lighter, and when steps become longer.
   void begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest);
   /// Forces at s.v, added to f.
   void add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f);
-  /// The last add() acts for the time h, at s.v, on nodes that are due.
+  /// The last add() acts for the time h, at s.v, on nodes that are due; nodes may have been split since.
   void book(const Mesh& mesh, const State& s, double h);
   /// Since begin, of each of its faces [N s].
   const std::vector<Vec3>& impulses() const { return impulse_; }
@@ -44,11 +46,20 @@ class Radiation {
   }
 
  private:
-  std::vector<RadiatingFace> faces_;  // with an impedance
-  std::vector<size_t> place_;         // of them, in begin's list
+  void fit(const Mesh& mesh);
+  void bound(const State& s);
+
+  std::vector<RadiatingFace> faces_;  // none if none has an impedance
+  std::vector<double> acting_;        // kg/s: part of their impedances
   std::vector<double> force_;         // N along n, of them
   std::vector<Vec3> impulse_;
   double work_ = 0;
+  double largest_ = 0, dt_ = 0;  // bound; stable step [s] for which it was taken, 0: it must be taken anew
+  // whose nodes are whose
+  size_t mesh_nodes_ = 0;
+  std::vector<NodeId> nodes_;                   // of all faces, each once
+  std::vector<std::array<int32_t, 4>> corner_;  // [face] into nodes_
+  Csr<int32_t> around_;                         // [nodes_] faces, ascending
 };
 
 }  // namespace bw::csd

@@ -152,7 +152,7 @@ for side in SIDES:
     TABLE[f"{side}: abort"] = struck(side, signal.SIGABRT, OUTSIDE.format(other(side)))
     TABLE[f"{side}: terminated"] = struck(side, signal.SIGTERM, r"ended from outside")
     TABLE[f"{side}: hangs"] = struck(side, signal.SIGSTOP, r"silence limit|has not taken a message|ended from outside")
-    TABLE[f"{side}: disk full"] = given(side, r"error: .*(large|space|write|failed|HDF5|h5)", words=[
+    TABLE[f"{side}: disk full"] = given(side, r"error: .*(too large|[Nn]o space|[Nn]o room|cannot be written|writing|creating|flush)", words=[
         "bash", "-c", f"trap '' XFSZ; ulimit -f 400; exec {BUILD}/bin/{side} {side}.toml"])
     TABLE[f"{side}: missing executable"] = given(side, r"could not (find|access)|No such file|unable", words=[f"{BUILD}/bin/{side}_is_missing"])
     TABLE[f"{side}: exits at once"] = given(side, r"ended from outside|non-zero|exited", words=["bash", "-c", "exit 9"])

@@ -57,6 +57,71 @@ TEST(Radiation, DenseGasBeforeLightNodesIsHeldBack) {
   EXPECT_NEAR(largest, 0.3, 1e-12);
 }
 
+/// The largest h c/m of a node, from the forces.
+double strongest(const Scene& scene, const Field<Vec3, NodeId>& f) {
+  double largest = 0;
+  for (size_t n = 0; n < f.size(); ++n)
+    largest = std::max(largest, -f[NodeId(int64_t(n))].x / (3 - 1) * scene.s.dt_stable / scene.s.m[NodeId(int64_t(n))]);
+  return largest;
+}
+
+TEST(Radiation, LighterChildrenAndLongerStepsAreHeldBackWithinAWindow) {
+  Scene scene;
+  for (RadiatingFace& face : scene.faces) face.impedance = 60 / 1e-6 * 0.01;
+  Topology topology(scene.mesh);
+  Radiation radiation;
+  radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
+  const Face cut = scene.faces[0].face;
+  NodeId middle;  // of all four faces
+  for (const NodeId n : scene.mesh.nodes_of(cut))
+    if (topology.elements(n).size() == 4) middle = n;
+  const std::vector<ElemId> elems{cut.elem};
+  const NodeSplit split{middle, topology.split(scene.mesh, middle, elems)};
+  scene.s.append_copies(std::span(&split, 1));
+  scene.s.m[split.child] = 1e-4, scene.s.m[split.parent] = 0.01 - 1e-4;
+  Field<Vec3, NodeId> f(scene.mesh.X.size());
+  radiation.add(scene.mesh, scene.s, f);
+  EXPECT_NEAR(strongest(scene, f), 0.3, 1e-12);
+  scene.s.dt_stable = 2e-6;
+  f = Field<Vec3, NodeId>(f.size());
+  radiation.add(scene.mesh, scene.s, f);
+  EXPECT_NEAR(strongest(scene, f), 0.3, 1e-12);
+  radiation.book(scene.mesh, scene.s, 1e-6);
+  double given = 0;
+  for (const Vec3& impulse : radiation.impulses()) given += impulse.x;
+  EXPECT_NEAR(given, sum_of(f).x * 1e-6, 1e-12 * std::fabs(given));
+}
+
+TEST(Radiation, ThreadsDontChangeBits) {
+  const Mesh mesh = box({0, 0, 0}, {0.1, 0.1, 0.1}, {1, 40, 40});
+  State s;
+  s.resize(mesh.X.size(), 0);
+  s.x = mesh.X, s.dt_stable = 1e-6;
+  std::vector<RadiatingFace> faces;
+  for (const Face f : mesh.face_sets.at("x_upper")) faces.push_back({f, {0.6, 0.8, 0}, 1 + 0.01 * f.elem.value, 1});
+  for (size_t n = 0; n < s.m.size(); ++n)
+    s.m[NodeId(int64_t(n))] = 1e-6 * double(1 + n % 7), s.v[NodeId(int64_t(n))] = {0.1 * double(n % 13), 0.3, 1};
+  std::vector<Field<Vec3, NodeId>> f;
+  std::vector<Vec3> impulse;
+  std::vector<double> work;
+  for (const int threads : {1, 2}) {
+    set_thread_count(threads);
+    Radiation radiation;
+    radiation.begin(mesh, s, faces, 0.3);
+    f.emplace_back(mesh.X.size());
+    radiation.add(mesh, s, f.back());
+    radiation.book(mesh, s, 1e-6);
+    Vec3 sum;
+    for (const Vec3& one : radiation.impulses()) sum += one;
+    impulse.push_back(sum), work.push_back(radiation.work());
+  }
+  set_thread_count(1);
+  EXPECT_TRUE(std::equal(f[0].begin(), f[0].end(), f[1].begin()));
+  EXPECT_EQ(impulse[0], impulse[1]);
+  EXPECT_EQ(work[0], work[1]);
+  EXPECT_NE(sum_of(f[0]).x, 0);
+}
+
 TEST(Radiation, ActsAmongTheGivenLoads) {
   Scene scene;
   Loads loads(scene.mesh, {});
