@@ -13,6 +13,7 @@
 
 #include "common/app/guarded.h"
 #include "common/app/log.h"
+#include "common/parallel/watchdog.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
 #include "coupling/polite.h"
@@ -66,12 +67,21 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   [[noreturn]] void end_with_peer(int source);
   void look_for_failure();
   void become_active();
+  void watch_silence() const;
   bool is_there(int tag) const;
   static void at_exit();
   [[noreturn]] static void at_terminate();
 };
 
 std::shared_ptr<Channel::State> Channel::State::active;
+
+/// The leaders see the silence limit to its end; if they are stopped themselves, the others do a little later.
+void Channel::State::watch_silence() const {
+  if (inter == MPI_COMM_NULL) return;
+  watch(1.25 * limits.silence + 5, exit_silence,
+        fmt::format("no window has ended for longer than the silence limit of {:g} s{}: processes of this run hang",
+                    limits.silence, place()));
+}
 
 // --- failing
 // ------------------------------------------------------------------------------------------------------------------
@@ -186,6 +196,7 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   state_->line = std::move(line);
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   state_->become_active();
+  state_->watch_silence();
 }
 
 Channel::Channel(const Comm& mine, std::unique_ptr<StandIn> stand_in, Role role) : state_(std::make_shared<State>()) {
@@ -224,12 +235,14 @@ void Channel::set_place(int64_t window, double t) {
   state_->window = window;
   state_->t = t;
   if (leader()) set_notice(state_->place());
+  state_->watch_silence();
 }
 
 void Channel::close() {
   state_->open = false;
   state_->stand_in.reset();
   quiet_notice();
+  stop_watching();
 }
 
 // --- messages

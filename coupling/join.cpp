@@ -11,6 +11,7 @@
 
 #include "common/app/log.h"
 #include "common/app/timers.h"
+#include "common/parallel/watchdog.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
 #include "coupling/port.h"
@@ -60,6 +61,7 @@ Joined join(const Comm& world, Role role, const CouplingCase& cs) {
   const Timed timed("join", Timed::waiting);
   if (world.size() == 1) return {world, nullptr};
   set_notice(" before the programs had joined");
+  watch(1.25 * cs.join_limit + 5, exit_join, "cannot join: another process of this run hangs (coupling.join_limit)");
 
   JoinBlock me{};
   std::memcpy(me.magic, protocol_magic, sizeof me.magic);
@@ -78,6 +80,7 @@ Joined join(const Comm& world, Role role, const CouplingCase& cs) {
   }
   if (peer_leader < 0) {  // the world is this program's alone
     quiet_notice();
+    stop_watching();
     return {world, nullptr};
   }
   MPI_Comm raw = MPI_COMM_NULL, inter = MPI_COMM_NULL;  // live until MPI_Finalize

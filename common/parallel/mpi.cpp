@@ -2,8 +2,11 @@
 #include "common/parallel/mpi.h"
 
 #include <climits>
+#include <cstdlib>
 #include <exception>
 #include <stdexcept>
+
+#include "common/parallel/watchdog.h"
 
 namespace bw {
 
@@ -111,11 +114,32 @@ std::vector<char> Comm::gather_bytes(const void* data, size_t bytes) const {
   return all;
 }
 
+namespace {
+
+bool has_session = false;
+
+/// s. MPI's own start can take long on many machines.
+double start_limit() {
+  const char* text = std::getenv("BREAKWAVE_START_LIMIT");
+  const double given = text ? std::atof(text) : 0;
+  return given > 0 ? given : 600;
+}
+
+}  // namespace
+
+bool Session::is_there() { return has_session; }
+
 Session::Session(int& argc, char**& argv) {
+  has_session = true;
+  const double limit = start_limit();
+  watch(limit, 1,
+        "MPI has not started within " + std::to_string(int(limit)) +
+            " s (BREAKWAVE_START_LIMIT): another process of this run hangs, or died");
   int provided = 0;
   check_mpi(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   check_mpi(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   check_mpi(MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  stop_watching();
 }
 
 Session::~Session() {

@@ -69,6 +69,7 @@ class Session {
   ~Session();
   Session(const Session&) = delete;
   Comm world() const { return Comm(MPI_COMM_WORLD); }
+  static bool is_there();
 };
 
 }  // namespace bw
