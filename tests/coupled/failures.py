@@ -128,6 +128,18 @@ def struck(side, number, says):
     return run
 
 
+def leaders_stopped(folder):
+    """Nobody is left who waits for the other program: the other ranks end by themselves."""
+    faults, job = [], start(folder)
+    wait_for_mark(job, folder / "out")
+    at = time.monotonic()
+    for side in SIDES:
+        os.kill(pids_of(job, side)[0], signal.SIGSTOP)
+    said, seconds = end_of(job, at, faults, 1.25 * SILENCE + 5)
+    look_at_checkpoint(folder / "out", faults)
+    return faults, said, seconds, r"longer than the silence limit"
+
+
 def given(side, says, code=None, words=None, change=None):
     """A program or case of one side that fails by itself, at an instant that nobody tells."""
     def run(folder):
@@ -173,6 +185,8 @@ TABLE["csd: wrong unit"] = given("csd", r"csd\.toml:\d+: .*density", 2, change=(
 TABLE["cfd: wrong unit"] = given("cfd", r"cfd\.toml:\d+: .*pressure", 2, change=(r"pressure = 101325\.0", 'pressure = "101325 m"'))
 TABLE["csd: inverted element"] = given("csd", r"\[csd\] error: .*(inverted|not numbers)[\s\S]*\[cfd\] error: csd \(rank \d+\) FAILED", 3,
                                        change=('young_modulus = "206 GPa"', 'young_modulus = "2 Pa"'))
+if max(RANKS) > 1:
+    TABLE["both leaders hang"] = leaders_stopped
 
 
 def table():
