@@ -75,11 +75,12 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
 
 std::shared_ptr<Channel::State> Channel::State::active;
 
-/// The leaders see the silence limit to its end; if they are stopped themselves, the others do a little later.
+/// The leaders see each wait to its end. From one place to the next a healthy run waits at most for a file, for loads
+/// and, on the other side, for this one's steps: what takes longer are leaders that hang themselves.
 void Channel::State::watch_silence() const {
   if (inter == MPI_COMM_NULL) return;
-  watch(1.25 * limits.silence + 5, exit_silence,
-        fmt::format("no window has ended for longer than the silence limit of {:g} s{}: processes of this run hang",
+  watch(3 * limits.silence + 5, exit_silence,
+        fmt::format("no window has ended within three times the silence limit of {:g} s{}: processes of this run hang",
                     limits.silence, place()));
 }
 
