@@ -62,11 +62,14 @@ FluidSums Books::sums(const Model& m) const {
 }
 
 SweptSums Books::swept_sums(const Comm& comm) const {
-  FixedSum sums[4];
+  FixedSum sums[10];
   for (int q = 0; q < 2; ++q) sums[0] += swept.lost[q], sums[1] += swept.made[q];
   sums[2] += swept.lost[Cons::rhoE], sums[3] += swept.made[Cons::rhoE];
+  for (int d = 0; d < 3; ++d) sums[4 + d] += swept.lost[Cons::mom + d], sums[7 + d] += swept.made[Cons::mom + d];
   FixedSum::sum(comm, sums);
-  return {sums[0].value(), sums[1].value(), sums[2].value(), sums[3].value(), comm.sum(swept.covered), comm.sum(swept.fresh)};
+  SweptSums r{sums[0].value(), sums[1].value(), sums[2].value(), sums[3].value(), {}, comm.sum(swept.covered), comm.sum(swept.fresh)};
+  for (int d = 0; d < 3; ++d) r.momentum[d] = sums[7 + d].value() - sums[4 + d].value();
+  return r;
 }
 
 double Books::p_max(const Model& m) const {

@@ -16,6 +16,7 @@ struct FluidSums {
 
 struct SweptSums {
   double mass_lost = 0, mass_made = 0, energy_lost = 0, energy_made = 0;
+  Vec3 momentum;  ///< made less lost
   int64_t covered = 0, fresh = 0;
 };
 

@@ -241,6 +241,7 @@ Model::Model(const Comm& comm, const Case& cs)
   }
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
   if (cs.fluid.walls.slits != "centre") slits = cs.fluid.walls.slits == "area" ? Slits::area : Slits::sealed;
+  conservative_loads = cs.fluid.walls.loads == "conservative";
   if (cs.fluid.amr) refine = cs.fluid.amr->rules;
   if (cs.fluid.start_from) start = std::make_shared<Start>(begin_from(*cs.fluid.start_from, *this));
 }
@@ -249,7 +250,7 @@ void add_walls(Model& m, double p_ref) {
   const GridSize& size = m.forest.size();
   const BlockShape& s = m.forest.finest_shape();
   Lattice lattice{size.lower, s.h, m.forest.cells_of_level(m.forest.levels())};
-  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.slits);
+  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.slits, m.conservative_loads);
 }
 
 std::vector<uint8_t> blocked_cells(const Model& m, int block) {

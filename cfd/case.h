@@ -259,12 +259,15 @@ struct SchemeCase {
 };
 
 struct WallsCase {
-  std::string slits = "centre";
+  std::string slits = "centre", loads = "pressure";
   template <class K>
   void describe(K& k) {
     k.choice("slits", slits, {"centre", "area", "sealed"},
              "openings narrower than a cell, between walls thinner than one, and edges of such walls. centre: the line between two cell centres decides, all or "
              "nothing; area: gas flows through the open part of a cell face; sealed: nothing passes a cell face of which any part is blocked");
+    k.choice("loads", loads, {"pressure", "conservative"},
+             "of the walls' faces. pressure: the pressure at each face, from its own side, second order; conservative: the momentum that the flow gave through the cut "
+             "links across each face, to round-off, as pressure and a traction beyond it: exact in the sum, noisy from face to face");
   }
 };
 

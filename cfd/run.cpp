@@ -123,7 +123,7 @@ int run_alone(const Case& cs, Model& m) {
       if (motion) motion->go_to(t0);
       coupling::Loads loads;
       const double dt = step(m, sweep, books, wanted, motion ? &*motion : nullptr, true, &loads);
-      if (motion) m.bodies->advance(dt, loads, cs.coupling.reference_pressure);
+      if (motion) m.bodies->advance(dt, loads, cs.coupling.reference_pressure, m.walls->conservative() ? &m.walls->face_forces() : nullptr);
       m.state.t = dt == wanted && wanted >= next - t0 ? next : t0 + dt;  // assigned, not summed: no drift
       out.write_due(m, books);
       out.tick(m, dt, sweep.stepped());
@@ -160,7 +160,7 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   const std::optional<Restart> from = open_restart(cs, mark ? mark->fluid_path() : "", m.forest.comm());
   coupling::Hello hello;
   hello.program = "cfd", hello.version = version();
-  hello.features = coupling::feature_checkpoint;
+  hello.features = coupling::feature_checkpoint | (m.conservative_loads ? coupling::feature_traction : 0);
   if (mark) hello.first_window = mark->window, hello.restart_hash = mark->hash(), hello.t0 = from->head.t;
   hello.t_end = cs.run.time.end;
   hello.lower = cs.fluid.grid.lower, hello.upper = cs.fluid.grid.upper;

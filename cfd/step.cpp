@@ -96,6 +96,7 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
     {
       Timed timed("walls");
       m.forest.comm().sum(m.walls->values());
+      if (m.walls->conservative()) m.walls->set_links(sweep.link_loads(), dt);
       *loads = m.walls->loads();
       loads->t1 = dt;
       book_walls(m, sweep, books, dt, *loads, v);

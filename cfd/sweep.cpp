@@ -54,6 +54,7 @@ void Sweep::fit() {
   first_order_.assign(n, {});
   near_.assign(n, far);
   wall_.assign(n, {});
+  if (walls_ && walls_->conservative()) links_.assign(n, {});
   fluxes_.fit(forest_);
 }
 
@@ -71,6 +72,7 @@ void Sweep::select(const State& s, double dt) {
   for (int b = 0; b < forest_.local_blocks(); ++b) {
     pending_[size_t(b)] = Booked{};
     wall_[size_t(b)] = {};
+    if (!links_.empty()) links_[size_t(b)].clear();
     fluxes_.forget(b);
     if (walls_) {
       const Index3 first = forest_.first_finest(b), n = forest_.finest_cells(b),
@@ -184,7 +186,9 @@ const uint8_t* Sweep::meet_walls(int block, Space& space) {
   space.cuts.gather(walls_->map(), walls_->rules(), first);
   if (!space.cuts.any()) return nullptr;
   wall_[size_t(block)] = {};
-  cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)]);
+  std::vector<LinkLoad>* links = links_.empty() ? nullptr : &links_[size_t(block)];
+  if (links) links->clear();
+  cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)], links);
   load_probes(block, space, dt_);
   const BlockShape& s = forest_.shape();
   space.blocked.assign(size_t(s.cells()), 0);
@@ -234,6 +238,12 @@ WallExchange Sweep::wall_exchange() const {
   FixedSum::sum(forest_.comm(), sums);
   return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}, sums[4].value(),
           forest_.comm().sum(links)};
+}
+
+std::vector<LinkLoad> Sweep::link_loads() const {
+  std::vector<LinkLoad> mine;
+  for (int b : active_) mine.insert(mine.end(), links_[size_t(b)].begin(), links_[size_t(b)].end());
+  return forest_.comm().size() == 1 ? mine : forest_.comm().gather_all(mine);
 }
 
 void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {

@@ -74,6 +74,9 @@ class Sweep {
   size_t stepped() const { return stepped_; }
   /// What the fluid gave to the walls in the step, all ranks.
   WallExchange wall_exchange() const;
+  /// What each cut link gave in the step, in the global order of blocks, all ranks; of walls whose loads are
+  /// conservative.
+  std::vector<LinkLoad> link_loads() const;
   /// Loads of all probes from the state as it is (advance() makes those of mid-step).
   void measure_loads(const State& s);
   /// Gives the cells that the walls' last motion freed a state; ghosts are exchanged between layers. `changed`: blocks
@@ -127,6 +130,7 @@ class Sweep {
   std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order
   std::vector<Near> near_;                         ///< [local block]
   std::vector<WallExchange> wall_;                 ///< [local block] of this step
+  std::vector<std::vector<LinkLoad>> links_;       ///< [local block] of this step; of conservative loads
   std::vector<uint8_t> ghost_marks_;               ///< of other ranks' blocks, when any rank has marks
   int64_t bad_ = 0;
   std::vector<Space> spaces_;

@@ -16,6 +16,8 @@
 
 namespace bw::cfd {
 
+struct FaceForces;
+
 /// Rigid motion since t = 0: x(t) = point + R(axis, angle) (X - point) + shift.
 struct Placement {
   Vec3 shift;
@@ -212,7 +214,8 @@ class Bodies {
   const std::vector<FreeBody>& free() const { return free_; }
   /// The window of dt is over: its loads move the free bodies. Faces in closed gaps, whose loads are dry, take the
   /// pressure of the faces beside them.
-  void advance(double dt, const coupling::Loads& loads, double p_ref);
+  /// links: forces of conservative loads in place of pressures; nullptr: none.
+  void advance(double dt, const coupling::Loads& loads, double p_ref, const FaceForces* links = nullptr);
   /// s: with longer steps a body lighter than the gas that it moves would swing.
   double largest_step() const { return largest_step_; }
   void save(const Saved& to) const;

@@ -44,9 +44,9 @@ class CutKernel {
 
   /// After BlockKernel::advance with the same arguments: corrects `change` in and near cut cells, 0 in blocked ones.
   void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt,
-               BlockChange& change, WallExchange& exchange) {
+               BlockChange& change, WallExchange& exchange, std::vector<LinkLoad>* links = nullptr) {
     begin(patch, cuts, flow, eos, dt);
-    change_ = &change, exchange_ = &exchange;
+    change_ = &change, exchange_ = &exchange, links_ = links;
     mark(change);
     for (const Cell& x : redo_) {
       for (int d = 0; d < 3; ++d) {
@@ -244,7 +244,15 @@ class CutKernel {
       const double* z = patch_->row(Prim::stored_energy, 0, 0);
       stored = 0.5 * (z[low.p] + z[high.p]);
     }
-    return solve(L, R, sound(low), sound(high), d, stored);
+    return solve(L, R, sound(low), sound(high), d, stored, in_shock(low, high));
+  }
+
+  /// Row Prim::shock at a face away from walls: the block kernel damps the other side of it. 0 beside walls, where the
+  /// row has seen states behind them.
+  double in_shock(Cell low, Cell high) const {
+    if (Flow::mixed || !patch_->shocked || cuts_->touched(low.c) || cuts_->touched(high.c)) return 0;
+    const double* row = patch_->row(Prim::shock, 0, 0);
+    return std::max(row[low.p], row[high.p]);
   }
 
   Sound<double> sound(Cell x) const {
@@ -252,12 +260,19 @@ class CutKernel {
   }
 
   Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], const Sound<double>& sound_L,
-             const Sound<double>& sound_R, int d, double stored) const {
+             const Sound<double>& sound_R, int d, double stored, double in_shock = 0) const {
     Face f;
     f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, sound_L, sound_R, f.F)
                         : d == 1 ? flow_->template flux<1>(L, R, sound_L, sound_R, f.F)
                                  : flow_->template flux<2>(L, R, sound_L, sound_R, f.F));
     if constexpr (Flow::mixed) f.F[Cons::rhoE] += f.F[Cons::arho1] * stored;
+    if constexpr (!Flow::mixed)
+      if (in_shock > 0) {
+        const double c = std::max(sound_L.c, sound_R.c);
+        if (d == 0) damp_along_shock<0, Flow>(L, R, c, in_shock, f.F);
+        if (d == 1) damp_along_shock<1, Flow>(L, R, c, in_shock, f.F);
+        if (d == 2) damp_along_shock<2, Flow>(L, R, c, in_shock, f.F);
+      }
     for (double& F : f.F) F *= lambda_[d];
     return f;
   }
@@ -376,10 +391,26 @@ class CutKernel {
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = share_of_face * out * shape_.cell_volume();
     for (int q = 0; q < Gas::densities; ++q) exchange_->mass += volume * f.F[q];
-    for (int e = 0; e < 3; ++e) exchange_->momentum[e] += volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];
+    Vec3 impulse;
+    for (int e = 0; e < 3; ++e) impulse[e] = volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];
+    exchange_->momentum += impulse;
+    if (links_) {
+      // what a wall sweeps over belongs to covered and uncovered cells, not to its faces
+      const double swept = volume * lambda_[d] * w.v[d] * Gas::rho(face);
+      note_link(x, d, out, s, w.face, impulse - swept * Gas::velocity(face), volume * lambda_[d]);
+    }
     exchange_->energy += volume * f.F[Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE)];
     ++exchange_->links;
     return f;
+  }
+
+  void note_link(Cell x, int d, double out, double s, int32_t face, const Vec3& impulse, double area_time) {
+    LinkLoad load{face, impulse, {}, {}};
+    load.area_time[d] = area_time;
+    const ptrdiff_t cell[3] = {x.p % stride_[2] % stride_[1], x.p % stride_[2] / stride_[1], x.p / stride_[2]};
+    for (int e = 0; e < 3; ++e) load.at[e] = patch_->lower[e] + (double(cell[e]) + 0.5) * shape_.h[e];
+    load.at[d] += out * s * shape_.h[d];
+    links_->push_back(load);
   }
 
   /// Has the fan that a receding wall sends into the gas passed the cell face? Then the wall's gas is what goes through
@@ -415,6 +446,7 @@ class CutKernel {
   const Flow* flow_ = nullptr;
   BlockChange* change_ = nullptr;
   WallExchange* exchange_ = nullptr;
+  std::vector<LinkLoad>* links_ = nullptr;
   std::optional<Gas> gas_;
   double dt_ = 0, lambda_[3] = {}, half_lambda_[3] = {};
   ptrdiff_t stride_[3] = {};

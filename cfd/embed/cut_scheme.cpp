@@ -12,9 +12,9 @@ class Scheme final : public CutScheme {
   Scheme(const Eos& eos, const typename Eos::Flow& flow, const BlockShape& shape)
       : eos_(eos), flow_(flow), kernel_(shape) {}
 
-  void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change,
-               WallExchange& exchange) override {
-    kernel_.correct(patch, cuts, flow_, eos_, dt, change, exchange);
+  void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change, WallExchange& exchange,
+               std::vector<LinkLoad>* links) override {
+    kernel_.correct(patch, cuts, flow_, eos_, dt, change, exchange, links);
   }
   void begin(const Patch& patch, const PatchCuts& cuts, double dt) override {
     kernel_.begin(patch, cuts, flow_, eos_, dt);

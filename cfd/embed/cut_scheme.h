@@ -2,6 +2,7 @@
 // The kernels of blocks with walls behind one door: compiled once per pair of equations of state, one call per block.
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "cfd/embed/patch_cuts.h"
 #include "cfd/mix/list.h"
@@ -21,6 +22,14 @@ struct WallExchange {
   }
 };
 
+/// What one cut link gave to the face that it crosses.
+struct LinkLoad {
+  int32_t face = -1;  ///< -1: none
+  Vec3 impulse;       ///< N s, absolute pressure, in a frame that moves with the wall along the link
+  Vec3 area_time;     ///< m^2 s: what one Pa at rest would have given
+  Vec3 at;            ///< the crossing at mid-step [m]
+};
+
 /// What a wall feels at one point.
 struct WallLoad {
   double p = 0;      ///< Pa, >= 0
@@ -32,9 +41,9 @@ class CutScheme {
  public:
   virtual ~CutScheme() = default;
   /// After BlockKernel::advance with the same patch, flow and dt: corrects `change` (and its book of sides) in and near
-  /// cut cells; 0 in blocked cells. exchange: added to.
+  /// cut cells; 0 in blocked cells. exchange, and links unless nullptr: added to.
   virtual void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change,
-                       WallExchange& exchange) = 0;
+                       WallExchange& exchange, std::vector<LinkLoad>* links) = 0;
   /// For load() without correct(): dt = 0 gives loads at the patch's own time.
   virtual void begin(const Patch& patch, const PatchCuts& cuts, double dt) = 0;
   /// Pressure at x on a wall with unit normal n into the fluid and velocity v, dt/2 after the patch's time, seen from

@@ -8,6 +8,7 @@
 
 #include "cfd/embed/body.h"
 #include "cfd/embed/scan.h"
+#include "cfd/embed/walls.h"
 #include "common/app/error.h"
 
 namespace bw::cfd {
@@ -66,20 +67,26 @@ void Bodies::add_free(const BodyCase& body, const FreeMotion& motion, int32_t fi
   free_.push_back(std::move(f));
 }
 
-void Bodies::advance(double dt, const coupling::Loads& loads, double p_ref) {
+void Bodies::advance(double dt, const coupling::Loads& loads, double p_ref, const FaceForces* links) {
   largest_step_ = 1e300;
   for (FreeBody& f : free_) {
     const RigidBody::Place half = f.rigid.halfway(dt), end = f.rigid.after(dt);
     const Mat3 R = half.turn.matrix();
     const std::vector<double> p = pressures_of(f, half, loads, p_ref);
-    Vec3 force, moment;
-    Mat3 lag{};  // of translation; of the turns its trace
+    Vec3 force, moment;    // of pressures, in the body's axes
+    Vec3 met, met_moment;  // of links, in the case's, about the origin
+    Mat3 lag{};            // of translation; of the turns its trace
     double turn_lag = 0;
     const Mat3 inv = f.rigid.inverse_inertia(half.turn);
     for (size_t n = 0; n < f.area.size(); ++n) {
-      force += -p[n] * f.area[n];
-      moment += -p[n] * f.lever[n];
-      const double size = norm(f.area[n]), z = loads.impedance[size_t(f.first_face) + n];
+      const size_t face = size_t(f.first_face) + n;
+      const double size = norm(f.area[n]), z = loads.impedance[face];
+      if (links && (z > 0 || links->met[face])) {
+        met += links->force[face], met_moment += links->moment[face];
+      } else {
+        force += -p[n] * f.area[n];
+        moment += -p[n] * f.lever[n];
+      }
       if (z == 0 || size == 0) continue;
       const Vec3 A = R * f.area[n], b = R * f.lever[n];
       for (int d = 0; d < 3; ++d)
@@ -93,7 +100,8 @@ void Bodies::advance(double dt, const coupling::Loads& loads, double p_ref) {
     if (rate > 0) largest_step_ = std::min(largest_step_, lag_share / rate);
     // the walls' own way: straight, and turning evenly
     const Vec3 way = end.shift - f.rigid.place().shift, turned = f.rigid.turn_angle(dt);
-    force = R * force, moment = R * moment;
+    force = met + R * force;
+    moment = met_moment - cross(f.rigid.mass().centre + half.shift, met) + R * moment;
     f.rigid.advance(dt, force, moment, dot(force, way) + dot(moment, turned));
   }
 }

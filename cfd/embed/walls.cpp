@@ -10,8 +10,8 @@
 namespace bw::cfd {
 
 Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
-             Slits slits)
-    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), slits_(slits) {
+             Slits slits, bool conservative)
+    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), slits_(slits), conservative_(conservative) {
   for (size_t d = 0; d < 3; ++d) blocks_[d] = lattice.n[d] / block[d];
   map_.clear(lattice);
 }
@@ -111,6 +111,21 @@ Walls::Range Walls::probes_of(const Index3& first) const {
   return {first_probe_[b], first_probe_[b + 1]};
 }
 
+void Walls::set_links(const std::vector<LinkLoad>& links, double dt) {
+  const size_t faces = surface_.quads.size();
+  face_forces_.met.assign(faces, 0);
+  face_forces_.force.assign(faces, {});
+  face_forces_.moment.assign(faces, {});
+  for (const LinkLoad& l : links) {
+    if (l.face < 0) continue;
+    const size_t f = size_t(l.face);
+    const Vec3 force = (l.impulse - p_ref_ * l.area_time) / dt;
+    face_forces_.met[f] = 1;
+    face_forces_.force[f] += force;
+    face_forces_.moment[f] += cross(l.at, force);
+  }
+}
+
 coupling::Loads Walls::loads() {
   coupling::Loads r;
   const size_t faces = surface_.quads.size();
@@ -129,6 +144,7 @@ coupling::Loads Walls::loads() {
     if (lattice_.active(d)) h = std::min(h, lattice_.h[d]);
   lip_force_ = {};
   r.p.resize(faces);
+  if (conservative_) r.traction.assign(faces, {});
   for (size_t f = 0; f < faces; ++f) {
     const bool thin = !surface_.flags.empty() && surface_.flags[f] & coupling::face_thin;
     r.p[f] = thin ? p_ref_ + p[0][f] - p[1][f] : p[0][f];
@@ -136,7 +152,7 @@ coupling::Loads Walls::loads() {
     if (!wet[f]) {
       ++r.totals.dry_faces;
       r.totals.dry_area += norm(area);
-    } else if (!surface_.flags.empty() && surface_.flags[f] & coupling::face_lip) {
+    } else if (!conservative_ && !surface_.flags.empty() && surface_.flags[f] & coupling::face_lip) {
       const double aperture = lips_.aperture(surface_, int32_t(f)), full = r.p[f];
       const double first = first_aperture_.emplace(surface_.face_id[f], std::max(aperture, 0.0)).first->second;
       const double open = aperture < Lips::apart ? std::clamp(2 * (aperture - first) / h, 0.0, 1.0) : 1.0;
@@ -144,6 +160,8 @@ coupling::Loads Walls::loads() {
       r.impedance[f] *= open;
       lip_force_ += (r.p[f] - full) * area;
     }
+    if (const double size = norm(area); conservative_ && size > 0 && (wet[f] || face_forces_.met[f]))
+      r.traction[f] = (face_forces_.force[f] + (r.p[f] - p_ref_) * area) / size;
   }
   return r;
 }

@@ -28,11 +28,18 @@
 
 namespace bw::cfd {
 
+/// Forces of the cut links on the faces that they cross, above p_ref.
+struct FaceForces {
+  std::vector<uint8_t> met;  ///< [n_faces] by a link
+  std::vector<Vec3> force;   ///< [n_faces] N
+  std::vector<Vec3> moment;  ///< [n_faces] N m about the origin, levers are the crossings
+};
+
 class Walls {
  public:
   /// block: cells per block and direction; p_ref [Pa]: on faces that see no fluid.
   Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
-        Slits slits = Slits::centre);
+        Slits slits = Slits::centre, bool conservative = false);
 
   /// A window starts: nodes are at x and keep v for the window [n_nodes]. Rescans if the topology is new or the nodes
   /// are not where end() left them.
@@ -70,6 +77,12 @@ class Walls {
   /// top of p_ref. A lip carries p_ref until its crack is wide enough to see fluid; then its pressure goes to the
   /// fluid's while the crack opens by half a cell more.
   coupling::Loads loads();
+  /// Do faces carry what the cut links across them gave? loads() then adds the traction that makes it so; lips are not
+  /// blended.
+  bool conservative() const { return conservative_; }
+  /// Before loads(): of the window of dt.
+  void set_links(const std::vector<LinkLoad>& links, double dt);
+  const FaceForces& face_forces() const { return face_forces_; }
   /// Impulse that the blending of lips kept from the walls at the last loads() [N s per s of window].
   Vec3 lip_force() const { return lip_force_; }
 
@@ -91,6 +104,8 @@ class Walls {
   std::array<int, 3> block_, blocks_;
   double p_ref_;
   Slits slits_;
+  bool conservative_;
+  FaceForces face_forces_;
   bool placed_ = false, probes_current_ = false;
   coupling::WetSurface surface_;
   coupling::NodePlaces places_;
