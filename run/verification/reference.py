@@ -317,6 +317,20 @@ def free_piston(t, mass, rho0=1.225, p0=101325.0, gamma=1.4):
     return u(t), x, p0 * y(t) ** (2 * gamma / (gamma - 1))
 
 
+def free_piston_before(eos, rho_i, p_i, mass, t, panels=1000):
+    """Speed at time t of a piston of `mass` per area, gas at rest on one side, vacuum on the other (simple wave: mass du = p dt, du = -c drho/rho)."""
+    u, now, step = 0.0, 0.0, math.log(1e3) / panels
+    for i in range(panels):
+        rho = rho_i * math.exp(-(i + 0.5) * step)
+        p = eos.isentrope(rho, rho_i, p_i)
+        du = eos.sound_speed(rho, p) * step
+        dt = mass * du / p
+        if now + dt > t:
+            return u + du * (t - now) / dt
+        u, now = u + du, now + dt
+    return u
+
+
 def driven_piston(u_p, rho0=1.225, p0=101325.0, gamma=1.4):
     """F10: wall pressure and density for a piston moving into (u_p > 0) or away from (u_p < 0) gas at rest, and the shock speed."""
     c0 = math.sqrt(gamma * p0 / rho0)

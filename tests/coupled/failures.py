@@ -64,6 +64,8 @@ def start(folder, words=None, case=None):
     for program, ranks in zip(SIDES, RANKS):
         (folder / f"{program}.toml").write_text((case or {}).get(program, CASE))
         command += ([":"] if program == "cfd" else []) + ["-n", str(ranks)] + (words or {}).get(program, [str(BUILD / "bin" / program), f"{program}.toml"])
+    if not words and not case:  # as users do
+        command = [str(HERE.parents[1] / "run" / "breakwave"), "csd.toml", "--ranks", "+".join(map(str, RANKS)), "--threads", "1", "--build", str(BUILD)]
     return subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
 
@@ -94,8 +96,10 @@ def end_of(job, accident_at, faults, waits=0.0):
         faults.append("HANGS")
         kill_all(job)
         said = job.communicate()[0]
-    if "MPI has not started" in said:  # mpirun itself doesn't always end a run that fails there
+    if "MPI has not started" in said:
         waits = max(waits, START)
+    if "mpirun hung" in said:  # in itself; run/breakwave makes sure twice
+        waits += 6
     seconds = time.monotonic() - accident_at - waits
     if seconds > LIMIT:
         faults.append(f"{seconds:.1f} s from the accident to the end")
@@ -220,7 +224,7 @@ def table():
 def fuzz():
     """Two accidents, of any kind and side, one after the other at random instants, from before the programs join to the end."""
     failed, dice = 0, random.Random(options.seed)
-    folder, slowest, with_marks = WORK / f"failures_fuzz_{options.seed}", 0.0, 0
+    folder, slowest, with_marks, launcher_hung = WORK / f"failures_fuzz_{options.seed}", 0.0, 0, 0
     for number in range(options.fuzz):
         RANKS[:] = dice.choice([(1, 1), (2, 1), (1, 2), (2, 2)])
         faults, job = [], start(folder)
@@ -250,13 +254,15 @@ def fuzz():
         left = [pid for program in SIDES for pid in pids_of(job, program)]
         if left and all(state_of(pid) == "T" for pid in left):  # nobody is left who could see it
             os.kill(left[-1], signal.SIGCONT)
-        _, seconds = end_of(job, began + done[-1][0], faults, waits)
+        said, seconds = end_of(job, began + done[-1][0], faults, waits)
+        launcher_hung += "mpirun hung" in said
         with_marks += look_at_checkpoint(folder / "out", faults) > 0
         slowest = max(slowest, seconds)
         failed += bool(faults)
         if faults or number % 20 == 19:
-            print(f"{'FAILED' if faults else 'ok':6} run {number + 1}, {RANKS[0]}+{RANKS[1]}, {done}: {'; '.join(faults) or f'slowest end so far {slowest:.2f} s'}", flush=True)
-    print(f"{options.fuzz} runs, seed {options.seed}: {failed} failed; slowest end {slowest:.2f} s after the last accident; {with_marks} had a checkpoint")
+            print(f"{'FAILED' if faults else 'ok':6} run {number + 1}, {RANKS[0]}+{RANKS[1]}, {done}: {'; '.join(faults) or f'slowest end so far {slowest:.2f} s'}" + (f"\n{said[-3000:]}" if faults else ""), flush=True)
+    print(f"{options.fuzz} runs, seed {options.seed}: {failed} failed; slowest end {slowest:.2f} s after the last accident; {with_marks} had a checkpoint; in {launcher_hung} "
+          "mpirun itself hung")
     return failed
 
 
