@@ -222,25 +222,24 @@ def table():
 
 
 def fuzz():
-    """Two accidents, of any kind and side, one after the other at random instants, from before the programs join to the end."""
+    """Two accidents, of any kind and side, one after the other at random instants, from before the programs join or, in half of the runs, from the first checkpoint on."""
     failed, dice = 0, random.Random(options.seed)
     folder, slowest, with_marks, launcher_hung = WORK / f"failures_fuzz_{options.seed}", 0.0, 0, 0
     for number in range(options.fuzz):
         RANKS[:] = dice.choice([(1, 1), (2, 1), (1, 2), (2, 2)])
         faults, job = [], start(folder)
+        if dice.random() < 0.5:
+            wait_for_mark(job, folder / "out")
         plan = sorted((dice.uniform(0.0, 4.0), dice.choice(SIDES), dice.choice((signal.SIGKILL, signal.SIGABRT, signal.SIGTERM, signal.SIGSTOP, signal.SIGSEGV)))
                       for _ in range(2))
-        began, done, stopped = time.monotonic(), [], set()
+        began, done = time.monotonic(), []
         for at, side, what in plan:
             while job.poll() is None and time.monotonic() - began < at:
                 time.sleep(0.005)
             pids = pids_of(job, side)
             if job.poll() is None and pids:
-                pid = dice.choice(pids)
                 try:
-                    os.kill(pid, what)
-                    if what == signal.SIGSTOP and pid == pids[0]:
-                        stopped.add(side)
+                    os.kill(dice.choice(pids), what)
                     done.append((round(time.monotonic() - began, 3), side, what.name))
                 except ProcessLookupError:
                     pass
@@ -248,9 +247,8 @@ def fuzz():
             kill_all(job)
             job.communicate()
             continue
-        waits = 1.25 * SILENCE + 5 if any(what == "SIGSTOP" for _, _, what in done) else 0  # joining's, a little longer than a window's
-        if len(stopped) == len(SIDES):
-            waits = without_leaders(SILENCE)
+        stopped = {side for _, side, what in done if what == "SIGSTOP"}
+        waits = (0, 1.25 * SILENCE + 5, without_leaders(SILENCE))[len(stopped)]  # one side: joining's, a little longer than a window's; both: no leader sees it
         left = [pid for program in SIDES for pid in pids_of(job, program)]
         if left and all(state_of(pid) == "T" for pid in left):  # nobody is left who could see it
             os.kill(left[-1], signal.SIGCONT)

@@ -51,11 +51,8 @@ def begin(name, text, ranks=(1, 1), threads=1, *words):
     """The pair in the folder of the case, which `clean` has made; a process group of its own."""
     folder = WORK / name
     (folder / "case.toml").write_text(text, encoding="utf-8")
-    command = ["mpirun"]
-    for program, count in zip(("csd", "cfd"), ranks):
-        command += ([":"] if program == "cfd" else []) + ["-n", str(count), str(BUILD / "bin" / program), "case.toml", *words]
-    return subprocess.Popen(command, cwd=folder, env=ENVIRONMENT | {"OMP_NUM_THREADS": str(threads)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                            text=True, start_new_session=True)
+    command = [str(HERE.parents[1] / "run" / "breakwave"), "case.toml", "--ranks", "+".join(map(str, ranks)), "--threads", str(threads), "--build", str(BUILD), "--", *words]
+    return subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
 
 def finish(process, what, code=0):
