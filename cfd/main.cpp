@@ -35,6 +35,6 @@ int program(const Session& session, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   bw::Session session(argc, argv);
-  bw::set_speaker("cfd", true);
+  bw::set_speaker("cfd", bw::is_first_of_program(session));
   return bw::guarded(session, [&] { return bw::cfd::program(session, argc, argv); });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -23,6 +24,9 @@ void on_sigterm(int) {
   if (i >= 0) {
     const ssize_t n = write(STDERR_FILENO, text[i], strlen(text[i]));
     (void)n;
+    // Open MPI kills all as soon as the first one dies: the others shall come to word
+    const timespec while_others_speak{.tv_sec = 0, .tv_nsec = 300'000'000};
+    nanosleep(&while_others_speak, nullptr);
   }
   _exit(exit_killed);
 }

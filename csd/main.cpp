@@ -39,6 +39,6 @@ int program(const Session& session, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   bw::Session session(argc, argv);
-  bw::set_speaker("csd", true);
+  bw::set_speaker("csd", bw::is_first_of_program(session));
   return bw::guarded(session, [&] { return bw::csd::program(session, argc, argv); });
 }

@@ -2,8 +2,11 @@
 #include "common/app/guarded.h"
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -22,8 +25,12 @@ int end(const Session& session, int code, const std::string& message) {
   const bool many = session.world().size() > 1;
   if (!message.empty()) {
     show_status("");
-    // all ranks may have met the same error: the speaker has half a second to say it for all
-    if (many && !speaks()) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    if (many && !speaks()) {
+      // all ranks may have met the same error: the speaker has half a second to say it for all; Open MPI then kills the
+      // rest as soon as one has died of SIGTERM, and the other program shall come to word before
+      std::signal(SIGTERM, SIG_IGN);
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    }
     error_line(message);
   }
   if (code == exit_ok || !many) return code;
@@ -41,6 +48,16 @@ int end(const Session& session, int code, const std::string& message) {
 }  // namespace
 
 void set_failure_hook(std::function<void(int, const std::string&)> hook) { failure_hook() = std::move(hook); }
+
+bool is_first_of_program(const Session& session) {
+  const char* counts = std::getenv("OMPI_APP_CTX_NUM_PROCS");  // "1 2" for -n 1 csd : -n 2 cfd
+  if (!counts) return true;
+  std::istringstream in(counts);
+  const int rank = session.world().rank();
+  int first = 0;
+  for (int ranks = 0; first < rank && in >> ranks;) first += ranks;
+  return first == rank;
+}
 
 int guarded(const Session& session, const std::function<int()>& body) {
   try {

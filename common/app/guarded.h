@@ -18,6 +18,10 @@ namespace bw {
 /// An exit code other than 0 that body() returns ends the same way, without a message.
 int guarded(const Session& session, const std::function<int()>& body);
 
+/// Whether this rank may speak for its program before the ranks of that know of each other: the first of those that one
+/// part of mpirun's line starts. If the launcher doesn't tell (Open MPI does) every rank may.
+bool is_first_of_program(const Session& session);
+
 /// Called once with (exit code, message) before an error ends the program: coupling tells the peer why. Empty removes
 /// it.
 void set_failure_hook(std::function<void(int code, const std::string& message)> hook);

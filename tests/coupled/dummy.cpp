@@ -43,12 +43,12 @@ int main(int argc, char** argv) {
   dummy::Scenario scenario;
   if (const size_t colon = text.find(':'); colon != std::string::npos)
     if (text.substr(0, colon) == role || text.substr(0, colon) == "both") scenario.accident = text.substr(colon + 1);
-  set_speaker(role, true);
+  set_speaker(role, is_first_of_program(session));
   error_line(fmt::format("process {}", getpid()));
   return guarded(session, [&]() -> int {
     session.world().barrier();  // the accidents before joining find the other program joining
     if (scenario.is("bad_input") || scenario.is("early_exit"))
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));  // on a busy machine, too
     coupling::CouplingCase cs;
     cs.reference_pressure = scenario.is("p_ref") ? 0 : dummy::p_ref;
     cs.join_limit = text.find("late") != text.npos ? 2 : 60;
