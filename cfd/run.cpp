@@ -8,7 +8,7 @@
 #include "cfd/checkpoint.h"
 #include "cfd/output.h"
 #include "cfd/start/paint.h"
-#include "cfd/step.h"
+#include "cfd/window_steps.h"
 #include "common/app/log.h"
 #include "common/app/timers.h"
 #include "common/app/version.h"
@@ -207,11 +207,11 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
       }
       const coupling::Window window = side.window();
       m.state.t = window.t0;
-      const double next = std::min(window.t1_max, out->next_time(window.t0));
-      const double wanted = step_towards(window.t0, next, courant_step(cs, m, *sweep));
-      coupling::Loads loads;
-      const double dt = step(m, *sweep, books, wanted, &motion, window.mean_pressure, &loads);
-      loads.t1 = dt == wanted && wanted >= next - window.t0 ? next : window.t0 + dt;
+      const auto wanted = [&](double t, double next) { return step_towards(t, next, courant_step(cs, m, *sweep)); };
+      const auto [stepped, dt] = window_steps(m, *sweep, books, motion, window, wanted, [&](double t) { return out->next_time(t); },
+                                              [&] { out->write_due(m, books); });
+      coupling::Loads loads = stepped;
+      if (window.fixed || cs.coupling.kind() == coupling::Scheme::concurrent) loads.dt_next = courant_step(cs, m, *sweep);
       const int64_t dry = loads.totals.dry_faces;
       const double dry_area = loads.totals.dry_area;
       loads.totals = totals_of(m, books);
@@ -219,7 +219,6 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
       loads.totals.impulse = at_faces.impulse, loads.totals.moment = at_faces.moment;
       loads.totals.work = at_faces.work, loads.totals.swept = at_faces.swept;
       loads.totals.dry_faces = dry, loads.totals.dry_area = dry_area;
-      m.state.t = loads.t1;
       loads.checkpoint = signal.due(m.state.t, m.state.step, m.forest.comm());
       side.send(loads);
       motion.end(dt);

@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define FSI_PROTOCOL_MAJOR 1
-#define FSI_PROTOCOL_MINOR 0
+#define FSI_PROTOCOL_MINOR 1
 
 /* flags of a face */
 #define FSI_FACE_LIP 1  /* made by a crack; its two lips lay on each other when it was born */
@@ -47,6 +47,7 @@ extern "C" {
 #define FSI_SCHEME_NONE 0
 #define FSI_SCHEME_FLUID_FIRST 1
 #define FSI_SCHEME_BOX1 2
+#define FSI_SCHEME_CONCURRENT 3 /* for the fluid the same as FLUID_FIRST */
 
 typedef struct fsi_fluid fsi_fluid;
 
@@ -90,6 +91,7 @@ typedef struct fsi_surface {
   const int32_t* flags;       /* [n_faces] FSI_FACE_... */
   const double* area;         /* [n_faces][3] m^2, area vector at t0, into the fluid */
   const double* centre;       /* [n_faces][3] m, mean of the face's nodes at t0 */
+  int fixed; /* 1: the window ends at t1_max, in as many of the fluid's steps as it needs; t1 must be t1_max */
 } fsi_surface;
 
 /* The answer. Zero what is unknown: memset, then t1 and p at least. */
@@ -106,6 +108,8 @@ typedef struct fsi_load {
   double energy_covered, energy_uncovered; /* J */
   int64_t dry_faces;                       /* faces without fluid, which got p_ref */
   double dry_area;                         /* m^2 */
+  double dt_next; /* s, the step that the fluid would take next: under concurrent the next window
+                     is so long; 0: unknown, as long as this one */
 } fsi_load;
 
 /* Not collective, needs no MPI. */

@@ -8,11 +8,12 @@
 namespace bw::coupling {
 
 /// How a window of time is shared; the numbers travel in HELLO.
-enum class Scheme : int { none = 0, fluid_first = 1, box1 = 2 };
+enum class Scheme : int { none = 0, fluid_first = 1, box1 = 2, concurrent = 3 };
 
 struct CouplingCase {
   std::string scheme = "fluid_first";  ///< empty: no opinion (a fluid that follows either)
   double reference_pressure = 101325;  ///< Pa; absolute pressure that the solid feels as none
+  double window = 0;                   ///< s; 0: the fluid's time step leads
   double window_max = 0;               ///< s; 0: the fluid's time step alone decides
   double added_mass = 0.2;             ///< longest window in (areal mass) / (fluid's impedance) of a face
   std::string radiation = "auto";      ///< faces feel rho c (v - announced v) inside a window
@@ -25,12 +26,18 @@ struct CouplingCase {
 
   template <class K>
   void describe(K& k) {
-    k.choice("scheme", scheme, {"fluid_first", "box1"},
+    k.choice("scheme", scheme, {"fluid_first", "box1", "concurrent"},
              "fluid_first: the wall moves with a predicted velocity, repays its gap, and loads are the window's mean "
              "(2nd order); "
-             "box1: the wall moves with the last velocity, loads are the window's end (1st order)");
+             "box1: the wall moves with the last velocity, loads are the window's end (1st order); "
+             "concurrent: as fluid_first, but both programs compute the window at the same time, the solid under loads "
+             "that it expects, and what they lacked is given in the next window");
     k.optional("reference_pressure", reference_pressure, dim::pressure,
                "absolute pressure subtracted from the fluid's before it loads the solid");
+    k.optional(
+        "window", window, dim::time,
+        "the solid leads: a fixed time between two exchanges, in which the fluid takes as many steps as it needs; "
+        "0 = the fluid leads, a window is one step of it. Not with concurrent");
     k.optional("window_max", window_max, dim::time,
                "longest time between two exchanges; 0 = the fluid's time step alone decides");
     k.optional("added_mass", added_mass, dim::none,
@@ -58,14 +65,18 @@ struct CouplingCase {
                "such a file in place of the other program: csd gets its loads, cfd its surfaces; or --replay FILE");
     if (!replay.empty()) replay_place = k.where("replay");
     k.expect(reference_pressure >= 0, "reference_pressure", "a pressure >= 0");
+    k.expect(window >= 0, "window", "a time >= 0");
+    k.expect(window == 0 || scheme != "concurrent", "window",
+             "none under concurrent: waves that come in are known a window late, and in long windows they grow");
     k.expect(window_max >= 0, "window_max", "a time >= 0");
     k.expect(added_mass >= 0, "added_mass", "a number >= 0");
     k.expect(silence_limit > 0, "silence_limit", "a time > 0");
     k.expect(join_limit > 0, "join_limit", "a time > 0");
   }
-  bool radiates() const { return radiation == "always" || (radiation == "auto" && kind() == Scheme::fluid_first); }
+  bool radiates() const { return radiation == "always" || (radiation == "auto" && kind() != Scheme::box1); }
   Scheme kind() const {
     if (scheme.empty()) return Scheme::none;
+    if (scheme == "concurrent") return Scheme::concurrent;
     return scheme == "box1" ? Scheme::box1 : Scheme::fluid_first;
   }
 };

@@ -43,6 +43,7 @@ bool FluidSide::receive() {
              .dt_stable = step_.dt_stable,
              .checkpoint = bool(step_.flags & step_checkpoint),
              .last = bool(step_.flags & step_last),
+             .fixed = bool(step_.flags & step_fixed),
              .mean_pressure = bool(step_.flags & step_mean_pressure)};
   channel_.set_place(window_.index, window_.t0);
   receive_surface();

@@ -12,12 +12,13 @@ namespace bw::coupling {
 
 /// One exchange: the solid stands at t0 and allows the fluid to go to t1_max at most.
 struct Window {
-  int64_t index = 0;     ///< 0, 1, ... ; set by SolidSide
-  double t0 = 0;         ///< s
-  double t1_max = 0;     ///< s, > t0
-  double dt_stable = 0;  ///< s, the solid's stable step at t0 (for the fluid's log only)
+  int64_t index = 0;        ///< 0, 1, ... ; set by SolidSide
+  double t0 = 0;            ///< s
+  double t1_max = 0;        ///< s, > t0
+  double dt_stable = 0;     ///< s, the solid's stable step at t0 (for the fluid's log only)
   bool checkpoint = false;  ///< the fluid is to keep its state at t0
-  bool last = false;     ///< the solid ends after this window, wherever the fluid's t1 is
+  bool last = false;        ///< the solid ends after this window, wherever the fluid's t1 is
+  bool fixed = false;       ///< the fluid is to go to t1_max, in as many steps as it needs
   bool mean_pressure =
       true;  ///< the solid wants the window's mean pressure (fluid_first), else the pressure at t1 (box1)
 };
@@ -41,6 +42,7 @@ struct Loads {
   double t1 = 0;                  ///< s, end of the window: t0 < t1 <= t1_max
   bool stop = false;              ///< the fluid asks to end after this window
   bool checkpoint = false;        ///< the fluid asks for a checkpoint at the end of this window
+  double dt_next = 0;             ///< s, the step that the fluid would take next; 0: unknown
   std::vector<double> p;          ///< [n_faces] Pa, absolute
   std::vector<Vec3> traction;     ///< [n_faces] Pa, beyond -p n; empty: none
   std::vector<double> impedance;  ///< [n_faces] kg/(m^2 s), rho c of the fluid at the face; empty: unknown

@@ -164,6 +164,7 @@ StepBlock pack(const Window& window, const WetSurface& surface) {
   if (window.last) s.flags |= step_last;
   if (window.checkpoint) s.flags |= step_checkpoint;
   if (window.mean_pressure) s.flags |= step_mean_pressure;
+  if (window.fixed) s.flags |= step_fixed;
   return s;
 }
 
@@ -243,6 +244,7 @@ LoadBlock pack(const Loads& loads, const StepBlock& asked) {
   b.energy_uncovered = t.energy_uncovered;
   b.dry_faces = t.dry_faces;
   b.dry_area = t.dry_area;
+  b.dt_next = loads.dt_next;
   return b;
 }
 
@@ -273,6 +275,11 @@ Verdict check_load(const LoadBlock& load, const StepBlock& asked) {
   if (!(load.t1 > asked.t0) || !(load.t1 <= asked.t1_max))
     return Fault{exit_bad_value,
                  fmt::format("LOAD: t1 = {:.17g} s is not in ({:.17g}, {:.17g}] s", load.t1, asked.t0, asked.t1_max)};
+  if ((asked.flags & step_fixed) && load.t1 != asked.t1_max)
+    return Fault{exit_bad_value,
+                 fmt::format("LOAD: t1 = {:.17g} s, but the window is a fixed one that ends at t1_max = {:.17g} s",
+                             load.t1, asked.t1_max)};
+  if (!(load.dt_next >= 0)) return Fault{exit_bad_value, fmt::format("LOAD: dt_next is {} s", load.dt_next)};
   return {};
 }
 

@@ -14,7 +14,7 @@ namespace bw::coupling {
 
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian");
 
-constexpr uint32_t protocol_major = 1, protocol_minor = 0;
+constexpr uint32_t protocol_major = 1, protocol_minor = 1;
 constexpr char protocol_magic[9] = "BWCOUPL\n";
 constexpr uint32_t protocol_endian = 0x01020304;
 
@@ -61,7 +61,13 @@ struct StepBlock {
   char reserved[40];
 };
 static_assert(sizeof(StepBlock) == 192);
-enum StepFlag : uint32_t { step_connectivity = 1, step_last = 2, step_checkpoint = 4, step_mean_pressure = 8 };
+enum StepFlag : uint32_t {
+  step_connectivity = 1,
+  step_last = 2,
+  step_checkpoint = 4,
+  step_mean_pressure = 8,
+  step_fixed = 16
+};
 
 struct LoadBlock {
   int64_t window, topo_version, n_faces;
@@ -72,7 +78,8 @@ struct LoadBlock {
   double mass_covered, mass_uncovered, energy_covered, energy_uncovered;
   int64_t dry_faces;
   double dry_area;
-  char reserved[64];
+  double dt_next;
+  char reserved[56];
 };
 static_assert(sizeof(LoadBlock) == 256);
 enum LoadFlag : uint32_t { load_traction = 1, load_impedance = 2, load_stop = 4, load_checkpoint = 8 };

@@ -10,7 +10,7 @@
 
 namespace bw::coupling {
 
-/// box1: v^n. fluid_first: the velocity at the middle of the coming window, v^n + r/2 (v^n - v^(n-1)) with r = (coming
+/// box1: v^n. Else the velocity at the middle of the coming window, v^n + r/2 (v^n - v^(n-1)) with r = (coming
 /// window) / (last window), 1.5 v^n - 0.5 v^(n-1) for equal windows. A node split from a parent continues the parent's
 /// history, a node that was not wet before starts with v^n.
 class WallPredictor {
@@ -23,7 +23,7 @@ class WallPredictor {
     // a sliver of a window before an output time must not blow the difference up
     const double half_ratio = dt_last_ > 0 ? 0.5 * std::clamp(dt_next / dt_last_, 0.0, 2.0) : 0;
     const bool same = surface.topo_version == topo_version_ && v.size() == v_last_.size();
-    if (scheme_ == Scheme::fluid_first && half_ratio > 0) {
+    if (scheme_ != Scheme::box1 && half_ratio > 0) {
       const NodePlaces now = same ? NodePlaces{} : NodePlaces(surface);
       for (size_t i = 0; i < v.size(); ++i) {
         const int64_t old = same ? int64_t(i) : places_.find_or_ancestor(surface, i, now);

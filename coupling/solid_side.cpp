@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "common/app/timers.h"
@@ -13,7 +14,12 @@
 namespace bw::coupling {
 
 SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hello, const std::string& history_path)
-    : channel_(channel), case_(cs), predictor_(cs.kind()), added_mass_(cs.added_mass), ledger_(cs.reference_pressure) {
+    : channel_(channel),
+      case_(cs),
+      predictor_(cs.kind()),
+      added_mass_(cs.added_mass),
+      ledger_(cs.reference_pressure),
+      expected_(cs.reference_pressure) {
   const Greeting greeting = shake_hands(channel, cs, hello);
   t_end_ = greeting.t_end;
   features_ = greeting.features;
@@ -29,13 +35,22 @@ void SolidSide::resume_table(int64_t rows) {
   if (!history_path_.empty()) history_.emplace(resume_ledger_table(history_path_, rows));
 }
 
+void SolidSide::fix(Window& window) const {
+  const double length = case_.kind() == Scheme::concurrent ? dt_next_ : case_.window;
+  if (!(length > 0)) return;
+  window.fixed = true;
+  const double room = window.t1_max - window.t0, parts = std::ceil(room / length * (1 - 1e-12));
+  if (parts > 1) window.t1_max = window.t0 + room / parts;  // no sliver is left before an output time
+}
+
 void SolidSide::send(Window window, const WetSurface& surface, std::span<const double> areal_mass) {
   const Timed timed("send surface");
   window.index = next_window_++;
   window.checkpoint = asks_checkpoint_;
-  window.mean_pressure = case_.kind() == Scheme::fluid_first;
+  window.mean_pressure = case_.kind() != Scheme::box1;
   if (!(window.t1_max > window.t0) || window.t1_max > t_end_) window.t1_max = t_end_;
   if (case_.window_max > 0) window.t1_max = std::min(window.t1_max, window.t0 + case_.window_max);
+  fix(window);
   window.t1_max =
       std::min(window.t1_max, window.t0 + added_mass_.longest_window(surface, areal_mass, window.dt_stable));
   window_ = window;
@@ -49,7 +64,8 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
   else
     sent_.x = surface.x;
   const double room = window.t1_max - window.t0;
-  sent_.v = predictor_.predict(surface, dt_usual_ > 0 ? std::min(dt_usual_, room) : room);
+  sent_.v = predictor_.predict(surface, dt_usual_ > 0 && !window.fixed ? std::min(dt_usual_, room) : room);
+  if (case_.kind() == Scheme::concurrent) expected_.begin(window, sent_);
 
   const uint64_t hash = step_.hash;
   const LedgerRow books = ledger_.row();
@@ -85,6 +101,21 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
     channel_.send(tag_faces, std::span<const int32_t>(faces_));
   }
   channel_.flush();
+}
+
+std::optional<Loads> SolidSide::expect() {
+  if (!window_.fixed || case_.kind() != Scheme::concurrent) return {};
+  Loads loads;
+  int32_t known = expected_.are_known();
+  channel_.share(&known, sizeof known);
+  if (!known) return {};
+  channel_.share(&window_.t1_max, sizeof window_.t1_max);  // what light faces stand the leader knows
+  if (channel_.leader()) loads = expected_.expect(sent_, window_.t1_max);
+  loads.t1 = window_.t1_max;
+  channel_.share(loads.p);
+  channel_.share(loads.impedance);
+  channel_.share(sent_.v);
+  return loads;
 }
 
 const Loads& SolidSide::receive() {
@@ -131,9 +162,11 @@ const Loads& SolidSide::receive() {
   loads_.totals = totals_of(load);
 
   const double dt = loads_.t1 - window_.t0;
+  dt_next_ = load.dt_next > 0 ? load.dt_next : window_.fixed ? dt_next_ : dt;
   if (loads_.t1 < window_.t1_max) dt_usual_ = dt;  // one that the limit cut short says nothing about the next
   if (channel_.leader()) {
     predictor_.window_lasted(dt);
+    if (case_.kind() == Scheme::concurrent) expected_.answered(sent_, loads_);
     ledger_.open(window_, sent_, loads_);
     ledger_.set_added_mass(added_mass_.answer(loads_.impedance, dt));
   }

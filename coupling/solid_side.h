@@ -17,6 +17,7 @@
 #include "common/io/csv.h"
 #include "coupling/added_mass.h"
 #include "coupling/channel.h"
+#include "coupling/expected_loads.h"
 #include "coupling/ledger.h"
 #include "coupling/messages.h"
 #include "coupling/predictor.h"
@@ -40,10 +41,14 @@ class SolidSide {
   /// (areal_mass [n_faces] kg/m^2: of the part of the solid that moves with the face in one window, its element; empty:
   /// unknown); surface.v is v^n, what travels is the predicted velocity of the walls.
   void send(Window window, const WetSurface& surface, std::span<const double> areal_mass = {});
+  /// Under concurrent, while the fluid computes its answer: the loads to go on with, to the window's end, which is
+  /// fixed; receive() is due before end_window(). Nothing under other schemes, and before the first answer: receive()
+  /// next. All ranks.
+  std::optional<Loads> expect();
   /// Checked: t0 < t1 <= t1_max, one finite P per face. Valid until the next send.
   const Loads& receive();
-  /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after receive, if the
-  /// fluid told impedances.
+  /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after expect or
+  /// receive, if the fluid told impedances.
   const std::vector<Vec3>& announced() const { return sent_.v; }
   /// The fluid can keep its state.
   bool fluid_keeps() const { return features_ & feature_checkpoint; }
@@ -64,6 +69,9 @@ class SolidSide {
     if (a.restores()) resume_table(rows);
     A predictor = a.section("predictor"), added_mass = a.section("added_mass"), ledger = a.section("ledger");
     predictor_.keep(predictor), added_mass_.keep(added_mass), ledger_.keep(ledger);
+    if (case_.kind() != Scheme::concurrent) return;
+    A expected = a.section("expected");
+    a.value("dt_next", dt_next_), expected_.keep(expected);
   }
   /// One substep's totals (leader's count; call on any).
   void add(const SolidTotals& totals) { ledger_.add(totals); }
@@ -78,6 +86,8 @@ class SolidSide {
 
  private:
   void resume_table(int64_t rows);
+  /// The window's end, where the solid leads or computes beside the fluid.
+  void fix(Window& window) const;
 
   Channel& channel_;
   CouplingCase case_;
@@ -95,6 +105,8 @@ class SolidSide {
   WallPredictor predictor_;
   AddedMass added_mass_;
   Ledger ledger_;
+  ExpectedLoads expected_;
+  double dt_next_ = 0;   // s, that the fluid will take, as far as it or the last window tell
   double dt_usual_ = 0;  // last window that was not clipped
   double t_last_ = 0;    // s, where the books are closed
   double waited_ = 0;    // s, for the last LOAD

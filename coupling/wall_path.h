@@ -61,6 +61,14 @@ class WallPath {
     keep(a);
   }
 
+  template <class A>
+  void keep(A& a) {
+    std::vector<int64_t> version{topo_version_};  // as a list, which every kind of file has
+    a.list("topo_version", version), a.list("wall_x", x_);
+    topo_version_ = version.at(0);
+    places_.keep(a);
+  }
+
  private:
   template <class S>
   struct Saving {
@@ -78,14 +86,6 @@ class WallPath {
       a = from.template same<T>(name);
     }
   };
-  template <class A>
-  void keep(A& a) {
-    std::vector<int64_t> version{topo_version_};
-    a.list("topo_version", version), a.list("wall_x", x_);
-    topo_version_ = version.at(0);
-    places_.keep(a);
-  }
-
   int64_t topo_version_ = -1;
   NodePlaces places_;             // of x_
   std::vector<Vec3> x_;           // the walls

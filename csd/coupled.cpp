@@ -79,6 +79,7 @@ void Coupled::keep(Archive a, Model& m) {
   surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
   int64_t version = surface_.wet().topo_version;
   a.value("topo_version", version);
+  if (case_.coupling.kind() == coupling::Scheme::concurrent) a.list("owed", owed_);
   surface_.go_on_from(version);
   side_->keep(a);
 }
@@ -101,16 +102,17 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
   nodes_ = surface_.nodes();
   side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), areal_mass(m, surface_));
-  const coupling::Loads& loads = side_->receive();
-  if (to_commit_ && !side_->fluid_file().empty()) {  // the leader
-    to_commit_->fluid = side_->fluid_file();
-    coupling::commit(*to_commit_, marks_kept_);
-    say("checkpoint of the pair at t = {:.6g} s", m.state.t);
-  }
-  to_commit_.reset();
+  const std::optional<coupling::Loads> expected = side_->expect();
+  const coupling::Loads loads = expected ? *expected : side_->receive();
+  if (!expected) hear();
   const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), on_faces);
-  const std::vector<Vec3> back = renew_radiation(m, loads, dt_stable, loads.t1 - m.state.t);
+  const double dt = loads.t1 - m.state.t;
+  std::vector<Vec3> back = renew_radiation(m, loads, dt_stable, dt);
+  if (!owed_.empty()) back.resize(on_faces.size());
+  for (size_t i = 0; i < owed_.size(); ++i) back[i] += owed_[i] / dt;  // faces keep their places
+  owed_.clear();
+  if (expected) expected_ = Expected{on_faces, positions(m), m.state.t, {}};
   back_ = back.empty() ? std::vector<Vec3>{} : coupling::nodal_loads(surface_.wet(), back);
   std::vector<std::pair<Face, Vec3>> forces;
   for (size_t i = 0; i < on_faces.size(); ++i)
@@ -119,13 +121,41 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   return loads.t1;
 }
 
+void Coupled::hear() {
+  if (to_commit_ && !side_->fluid_file().empty()) {  // the leader
+    to_commit_->fluid = side_->fluid_file();
+    coupling::commit(*to_commit_, marks_kept_);
+    say("checkpoint of the pair at t = {:.6g} s", to_commit_->t);
+  }
+  to_commit_.reset();
+}
+
+void Coupled::settle(const Model& m) {
+  const coupling::Loads& loads = side_->receive();
+  hear();
+  const double dt = loads.t1 - expected_->t0;
+  std::vector<Vec3> lacking = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
+  force_ = coupling::nodal_loads(surface_.wet(), lacking);
+  for (size_t i = 0; i < lacking.size(); ++i) lacking[i] -= expected_->on_faces[i];
+  const std::vector<Vec3> now = positions(m), start = std::move(expected_->x_start);
+  coupling::SolidTotals given = coupling::substep_totals(force_, surface_.wet().x, start, now, dt);
+  given.substeps = expected_->beyond.substeps;
+  side_->add(given);
+  const coupling::SolidTotals missed =
+      coupling::substep_totals(coupling::nodal_loads(surface_.wet(), lacking), surface_.wet().x, start, now, dt);
+  side_->add_advance(expected_->beyond.impulse - missed.impulse, expected_->beyond.work - missed.work);
+  owed_ = std::move(lacking);
+  for (Vec3& force : owed_) force = force * dt;
+  expected_.reset();
+}
+
 std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& loads, double dt_stable, double dt) {
   auto& radiation = m.physics.loads->radiation;
   if (!radiation) return {};
   const size_t n = surface_.faces().size();
   std::vector<Vec3> back(n);
   // faces keep their places; under box1 the fluid's walls jump to the solid, and nothing is repaid
-  if (case_.coupling.kind() == coupling::Scheme::fluid_first)
+  if (case_.coupling.kind() != coupling::Scheme::box1)
     for (size_t i = 0; i < radiation->impulses().size(); ++i) back[i] = radiation->impulses()[i] / -dt;
   std::vector<RadiatingFace> faces(n);
   for (size_t i = 0; i < n; ++i) {
@@ -146,13 +176,18 @@ void Coupled::before_step(const Model& m) { x_before_ = positions(m); }
 
 void Coupled::after_step(const Model& m, double dt) {
   const std::vector<Vec3> now = positions(m);
-  side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));
-  if (back_.empty()) return;
-  const coupling::SolidTotals back = coupling::substep_totals(back_, surface_.wet().x, x_before_, now, dt);
-  side_->add_advance(back.impulse, back.work);
+  if (!expected_) side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));
+  coupling::SolidTotals back;
+  back.substeps = 1;
+  if (!back_.empty()) back = coupling::substep_totals(back_, surface_.wet().x, x_before_, now, dt);
+  if (expected_)
+    expected_->beyond += back;
+  else
+    side_->add_advance(back.impulse, back.work);
 }
 
 void Coupled::end_window(const Model& m) {
+  if (expected_) settle(m);
   if (const auto& radiation = m.physics.loads->radiation) {
     ExactSum3 impulse;
     for (const Vec3& one : radiation->impulses()) impulse += one;

@@ -31,8 +31,8 @@ class Coupled {
 
   double t_end() const { return side_->t_end(); }
   bool stop_asked() const { return side_->stop_asked(); }
-  /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window. Returns the
-  /// window's end, at most t_max.
+  /// Sends the surface at the state's time and puts the answer on the model's faces, for the whole window; under
+  /// concurrent the expected answer, the true one comes in end_window(). Returns the window's end, at most t_max.
   double exchange(Model& model, double dt_stable, double t_max);
   /// Between two windows: the fluid wants a checkpoint.
   bool checkpoint_asked() const { return side_->checkpoint_asked(); }
@@ -51,6 +51,10 @@ class Coupled {
 
  private:
   std::vector<Vec3> positions(const Model& model) const;
+  /// What the fluid's answer brings besides loads.
+  void hear();
+  /// The true answer to a window that went by the expected one: what was lacking is owed to the next window.
+  void settle(const Model& model);
   /// Forces on faces [N] that give back the impulses that radiation advanced in the window before, and radiation for
   /// this one, dt long.
   std::vector<Vec3> renew_radiation(Model& model, const coupling::Loads& loads, double dt_stable, double dt);
@@ -59,7 +63,15 @@ class Coupled {
   Surface surface_;
   std::vector<NodeId> nodes_;           ///< of the surface as sent
   std::vector<Vec3> force_, x_before_;  ///< per node of it: N in this window, m
-  std::vector<Vec3> back_;              ///< per node: N in this window, that give back what radiation advanced
+  std::vector<Vec3> back_;  ///< per node: N in this window, that give back what radiation advanced, or owed_
+  struct Expected {
+    std::vector<Vec3> on_faces;    ///< N
+    std::vector<Vec3> x_start;     ///< m, per node
+    double t0 = 0;                 ///< s
+    coupling::SolidTotals beyond;  ///< of back_
+  };
+  std::optional<Expected> expected_;  ///< the window goes by an answer that has not come yet
+  std::vector<Vec3> owed_;            ///< per face: N s that the window before lacked
   std::unique_ptr<coupling::SolidSide> side_;
   std::optional<coupling::CommitMark> to_commit_;
   int marks_kept_ = 1;

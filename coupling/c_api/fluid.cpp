@@ -18,7 +18,8 @@ using namespace bw::coupling;
 
 static_assert(FSI_PROTOCOL_MAJOR == protocol_major && FSI_PROTOCOL_MINOR == protocol_minor);
 static_assert(FSI_FACE_LIP == face_lip && FSI_FACE_THIN == face_thin);
-static_assert(FSI_SCHEME_FLUID_FIRST == int(Scheme::fluid_first) && FSI_SCHEME_BOX1 == int(Scheme::box1));
+static_assert(FSI_SCHEME_FLUID_FIRST == int(Scheme::fluid_first) && FSI_SCHEME_BOX1 == int(Scheme::box1) &&
+              FSI_SCHEME_CONCURRENT == int(Scheme::concurrent));
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<int32_t, 4>) == 4 * sizeof(int32_t));
 
 struct fsi_fluid {
@@ -75,6 +76,9 @@ CouplingCase case_of(const fsi_options& options) {
     case FSI_SCHEME_BOX1:
       cs.scheme = "box1";
       break;
+    case FSI_SCHEME_CONCURRENT:
+      cs.scheme = "concurrent";
+      break;
     default:
       throw InputError(fmt::format("fsi_fluid_open: scheme {} is none of FSI_SCHEME_...", options.scheme));
   }
@@ -118,6 +122,7 @@ Loads loads_of(const fsi_load& load, const WetSurface& surface, const Window& wi
   Loads loads;
   loads.t1 = load.t1;
   loads.stop = load.stop != 0;
+  loads.dt_next = load.dt_next;
   loads.p.assign(load.p, load.p + n);
   if (load.impedance) loads.impedance.assign(load.impedance, load.impedance + n);
   for (size_t f = 0; load.traction && f < n; ++f)
@@ -210,7 +215,8 @@ int fsi_recv_surface(fsi_fluid* fluid, fsi_surface* surface) {
                            .body = wet.body.data(),
                            .flags = wet.flags.data(),
                            .area = flat(fluid->area),
-                           .centre = flat(fluid->centre)};
+                           .centre = flat(fluid->centre),
+                           .fixed = window.fixed};
     return 1;
   });
 }

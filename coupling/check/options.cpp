@@ -15,7 +15,7 @@ const char* usage() {
          "Plays the other half of a coupled run against PROGRAM, scenario by scenario, and says what was expected.\n"
          "  --only A,B  --skip A,B      scenarios\n"
          "  --p-ref PA                  reference pressure of the case (101325)\n"
-         "  --scheme NAME               that of the case: fluid_first (default) or box1\n"
+         "  --scheme NAME               that of the case: fluid_first (default), box1 or concurrent\n"
          "  --limit S                   longest time from an accident to the end of both programs (2)\n"
          "  --windows N                 windows of a scenario (10)\n"
          "  --window S                  their longest duration (a hundredth of edge/c; 20 stable steps of the solid)\n"
@@ -102,7 +102,8 @@ Options read_options(int argc, char** argv) {
     found->second();
   }
   if (o.play != "solid" && o.play != "fluid") throw InputError("--play: expected solid or fluid");
-  if (o.scheme != "fluid_first" && o.scheme != "box1") throw InputError("--scheme: expected fluid_first or box1");
+  if (o.scheme != "fluid_first" && o.scheme != "box1" && o.scheme != "concurrent")
+    throw InputError("--scheme: expected fluid_first, box1 or concurrent");
   if (o.command.empty() && o.scenario.empty()) throw InputError("the program to be checked is missing: -- PROGRAM");
   if (!(o.edge > 0) || !(o.rho > 0) || !(o.c > 0) || o.windows < 4 || o.window < 0 || !(o.limit > 0))
     throw InputError("--edge, --rho, --c, --limit: expected positive numbers; --windows: at least 4");

@@ -65,7 +65,10 @@ Loads Fluid::answer(const FluidSide& side) {
   double dt = o.window > 0 ? o.window : 20 * window.dt_stable;
   if (is("short_windows")) dt = 0.1 * window.dt_stable;
   Loads loads;
-  loads.t1 = std::min(window.t1_max, window.t0 + dt);
+  loads.t1 = window.fixed ? window.t1_max : std::min(window.t1_max, window.t0 + dt);
+  loads.dt_next = dt;
+  if (o.scheme == "concurrent" && window.index > 0 && !(window.fixed && window.t1_max <= window.t0 + (1 + 1e-9) * dt))
+    found_wanting(fmt::format("window {}: not a fixed one of at most dt_next = {:.6g} s", window.index, dt));
   loads.p.assign(wet.quads.size(), o.p_ref + (is("rest") ? 0 : o.push));
   loads.stop = window.index + 1 >= o.windows;
   path.begin(window, wet);

@@ -27,6 +27,9 @@ constexpr Scenario against_fluid[] = {
     {.name = "vanish", .expected = "all faces die, later others are born: answers of the right length"},
     {.name = "short_windows",
      .expected = "windows a thousand times shorter than asked for elsewhere: t0 < t1 <= t1_max"},
+    {.name = "fixed_window",
+     .expected =
+         "the solid leads, by windows of many steps of the fluid: t1 = t1_max, P above p0 in front, below behind"},
     {.name = "t_end", .expected = "the run ends at the smaller t_end with BYE both ways, exit code 0"},
     {.name = "early_bye", .expected = "BYE instead of the first surface: answered, exit code 0"},
     {.name = "turned", .expected = "the fluid comes first on the command line: the same", .turned = true},

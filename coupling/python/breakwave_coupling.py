@@ -22,7 +22,7 @@ import traceback
 import numpy as np
 
 LIP, THIN = 1, 2                     # flags of a face: lip of a crack; open shell, wet on both sides
-SCHEMES = {None: 0, "fluid_first": 1, "box1": 2}
+SCHEMES = {None: 0, "fluid_first": 1, "box1": 2, "concurrent": 3}
 _f64, _i64, _i32, _int = ctypes.c_double, ctypes.c_int64, ctypes.c_int32, ctypes.c_int
 _doubles, _longs, _ints = ctypes.POINTER(_f64), ctypes.POINTER(_i64), ctypes.POINTER(_i32)
 
@@ -37,7 +37,7 @@ class _Surface(ctypes.Structure):
     _fields_ = [("window", _i64), ("topo_version", _i64), ("n_nodes", _i64), ("n_faces", _i64), ("t0", _f64), ("t1_max", _f64),
                 ("dt_stable", _f64), ("new_topology", _int), ("last", _int), ("mean_pressure", _int), ("x", _doubles), ("v", _doubles),
                 ("x_wall", _doubles), ("quads", _ints), ("node_id", _longs), ("node_parent", _longs), ("face_id", _longs),
-                ("body", _ints), ("flags", _ints), ("area", _doubles), ("centre", _doubles)]
+                ("body", _ints), ("flags", _ints), ("area", _doubles), ("centre", _doubles), ("fixed", _int)]
 
 
 _BOOKS = ["mass", "energy", "momentum", "mass_covered", "mass_uncovered", "energy_covered", "energy_uncovered", "dry_faces", "dry_area"]
@@ -46,7 +46,7 @@ _BOOKS = ["mass", "energy", "momentum", "mass_covered", "mass_uncovered", "energ
 class _Load(ctypes.Structure):
     _fields_ = [("t1", _f64), ("p", _doubles), ("traction", _doubles), ("impedance", _doubles), ("stop", _int), ("mass", _f64),
                 ("energy", _f64), ("momentum", _f64 * 3), ("mass_covered", _f64), ("mass_uncovered", _f64), ("energy_covered", _f64),
-                ("energy_uncovered", _f64), ("dry_faces", _i64), ("dry_area", _f64)]
+                ("energy_uncovered", _f64), ("dry_faces", _i64), ("dry_area", _f64), ("dt_next", _f64)]
 
 
 def _load_library():
@@ -83,7 +83,8 @@ def _pointer(values):
 class Surface:
     """The solid's wet surface at t0. Arrays are views, valid until the next window: copy what you keep.
 
-    window, topo_version, t0 [s], t1_max [s], dt_stable [s], new_topology, last, mean_pressure (p shall be the window's mean)
+    window, topo_version, t0 [s], t1_max [s], dt_stable [s], new_topology, last, mean_pressure (p shall be the window's mean),
+    fixed (the window must end at t1_max)
     x [n, 3] m, v [n, 3] m/s (announced), x_wall [n, 3] m (the fluid's wall at t0), node_id [n], node_parent [n]
     quads [m, 4], face_id [m], body [m], flags [m], area [m, 3] m^2 (vector into the fluid), centre [m, 3] m
     """
@@ -92,7 +93,7 @@ class Surface:
         self._fluid = fluid
         for name in ("window", "topo_version", "n_nodes", "n_faces", "t0", "t1_max", "dt_stable"):
             setattr(self, name, getattr(raw, name))
-        for name in ("new_topology", "last", "mean_pressure"):
+        for name in ("new_topology", "last", "mean_pressure", "fixed"):
             setattr(self, name, bool(getattr(raw, name)))
         n, m = self.n_nodes, self.n_faces
         for name, shape in (("x", (n, 3)), ("v", (n, 3)), ("x_wall", (n, 3)), ("quads", (m, 4)), ("node_id", (n,)), ("node_parent", (n,)),
@@ -134,7 +135,7 @@ class Fluid:
     """Joins the run and shakes hands. Read and check your input before.
 
     program, version, units: for people. p_ref [Pa]: the case's coupling.reference_pressure. t0 [s]. t_end [s]: 0 = no opinion.
-    lower, upper [m]: box of the fluid's domain. scheme: None, "fluid_first", "box1". Limits in s.
+    lower, upper [m]: box of the fluid's domain. scheme: None, "fluid_first", "box1", "concurrent". Limits in s.
     port_file: the case's coupling.port_file if csd was started apart, by an mpirun of its own.
     """
 
@@ -163,14 +164,15 @@ class Fluid:
         while (surface := self.receive()) is not None:
             yield surface
 
-    def send(self, t1, p, *, traction=None, impedance=None, stop=False, **books):
-        """Answers the surface in hand. p [m] Pa, absolute; traction [m, 3] Pa; impedance [m] kg/(m^2 s); books: mass, energy, momentum,
+    def send(self, t1, p, *, traction=None, impedance=None, stop=False, dt_next=0.0, **books):
+        """Answers the surface in hand. p [m] Pa, absolute; traction [m, 3] Pa; impedance [m] kg/(m^2 s); dt_next [s]: the step that
+        the fluid would take next; books: mass, energy, momentum,
         mass_covered, mass_uncovered, energy_covered, energy_uncovered, dry_faces, dry_area of the header."""
         m = self._surface.n_faces
         p = _array(p, (m,), "p")
         traction = None if traction is None else _array(traction, (m, 3), "traction")
         impedance = None if impedance is None else _array(impedance, (m,), "impedance")
-        load = _Load(t1=t1, p=_pointer(p), traction=_pointer(traction), impedance=_pointer(impedance), stop=bool(stop))
+        load = _Load(t1=t1, p=_pointer(p), traction=_pointer(traction), impedance=_pointer(impedance), stop=bool(stop), dt_next=dt_next)
         for name, value in books.items():
             if name not in _BOOKS:
                 raise TypeError(f"send: unknown argument '{name}'; the books are {', '.join(_BOOKS)}")

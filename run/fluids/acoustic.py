@@ -14,6 +14,6 @@ P0, RHO, C = 101325.0, 1.225, 340.3
 dt = float(sys.argv[1]) if len(sys.argv) > 1 else 1e-5
 with Fluid("acoustic", p_ref=P0) as fluid:
     for s in fluid:
-        t1 = min(s.t0 + dt, s.t1_max)
+        t1 = s.t1_max if s.fixed else min(s.t0 + dt, s.t1_max)
         speed = (s.wall_velocity(t1) * s.normal).sum(axis=1)  # of the faces, towards the gas
         fluid.send(t1, P0 + RHO * C * speed, impedance=RHO * C)

@@ -116,7 +116,7 @@ class Blast:
     def window_end(self, s):
         """Straight to the first arrival; small windows while the blast lasts; then whatever the solid wants."""
         t, w = s.t0 - self.start, self.wave
-        if len(w.arrival) == 0 or t >= (w.arrival + w.duration).max():
+        if s.fixed or len(w.arrival) == 0 or t >= (w.arrival + w.duration).max():
             return s.t1_max
         if t < w.arrival.min():
             return min(s.t1_max, max(self.start + w.arrival.min(), np.nextafter(s.t0, np.inf)))

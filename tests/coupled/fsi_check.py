@@ -56,7 +56,10 @@ check("cfd", "solid", [BUILD / "bin" / "cfd", OUT / "gas.toml"])
 check("csd", "fluid", [BUILD / "bin" / "csd", OUT / "plate.toml"])
 (OUT / "apart.toml").write_text(GAS + f'[coupling]\njoin = "port"\nport_file = "{OUT}/port"\n', encoding="utf-8")
 check("cfd by a port", "solid", [BUILD / "bin" / "cfd", OUT / "apart.toml"], "--port", OUT / "port", *([] if ALL else ["--only", "turned,nan,death"]))
-check("acoustic.py", "solid", [PYTHON, FLUIDS / "acoustic.py"], *([] if ALL else ["--only", "piston,split,degenerate,empty,vanish,ranks_2,nan,fail"]))
+(OUT / "beside.toml").write_text(plate + '[coupling]\nscheme = "concurrent"\n' if "[coupling]" not in plate else
+                                 plate.replace("[coupling]\n", '[coupling]\nscheme = "concurrent"\n'), encoding="utf-8")
+check("csd, concurrent", "fluid", [BUILD / "bin" / "csd", OUT / "beside.toml"], "--scheme", "concurrent", "--only", "rest,push,short_windows,stop,ranks_2,nan")
+check("acoustic.py", "solid", [PYTHON, FLUIDS / "acoustic.py"], *([] if ALL else ["--only", "piston,split,fixed_window,degenerate,empty,vanish,ranks_2,nan,fail"]))
 check("airblast.py before the blast arrives", "solid", [PYTHON, FLUIDS / "airblast.py", OUT / "far.toml"], "--only",
       "rest,degenerate,empty,vanish,short_windows")
 

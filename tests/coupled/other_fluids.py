@@ -113,6 +113,15 @@ def failures():
     report("airblast.py, wrong unit", "" if code == 2 and "fluid.charge.mass" in text else f"exit code {code}\n{text}")
 
 
+def from_the_text_alone():
+    """A client that knows MPI and PROTOCOL.md, nothing else."""
+    program = OUT / "raw_gas"
+    done = subprocess.run(["mpicc", "-Wall", "-o", str(program), str(SOURCE / "tests" / "coupled" / "raw_client" / "gas.c"), "-lm"], capture_output=True, text=True)
+    if done.returncode != 0:
+        return report("C program from PROTOCOL.md", done.stderr)
+    slab("C program from PROTOCOL.md", program)
+
+
 def installed():
     """cmake --install, then a C program by the CMake package, and the flags of pkg-config."""
     prefix, client = OUT / "prefix", OUT / "c_client"
@@ -142,5 +151,6 @@ slab("Python, two ranks", PYTHON, FLUIDS / "acoustic.py", ranks=(1, 2))
 curves()
 blast()
 failures()
+from_the_text_alone()
 installed()
 sys.exit(failed)

@@ -9,7 +9,7 @@ if(TARGET bw_coupling)
   foreach(group exchange messages accidents starts)
     add_test(NAME coupled_${group} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/coupled/pairs.py $<TARGET_FILE_DIR:coupled_dummy> ${group})
   endforeach()
-  foreach(scheme fluid_first box1)
+  foreach(scheme fluid_first box1 concurrent)
     set(pair -n 1 $<TARGET_FILE:coupled_piston>)
     add_test(NAME coupled_order_${scheme} COMMAND mpirun ${pair} solid ${scheme} : ${pair} fluid ${scheme})
     set_tests_properties(coupled_order_${scheme} PROPERTIES ENVIRONMENT

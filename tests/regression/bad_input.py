@@ -132,6 +132,8 @@ CASES = {
     "map without cells": ("cfd", FLUID + "[fluid.map]\ncells = [4, 0, 1]\n", r"cells", {}),
     "negative arrival": ("cfd", FLUID.replace("cells = [16, 1, 1]", 'cells = [16, 1, 1]\narrival_overpressure = "-1 Pa"'), r"arrival_overpressure", {}),
     "checkpoints that none keeps": ("cfd", FLUID.replace("[output]", "[checkpoint]\nevery_steps = 5\nkeep = 0\n[output]"), r"keep", {}),
+    "long concurrent windows": ("csd", SOLID + '[coupling]\nscheme = "concurrent"\nwindow = "1 us"\n', r"window.*concurrent", {}),
+    "negative window": ("csd", SOLID + '[coupling]\nwindow = "-1 us"\n', r"window.*>= 0", {}),
     "port without a file": ("csd", SOLID + '[coupling]\njoin = "port"\n', r"join.*port_file", {}),
     "no such record": ("csd", SOLID + '[coupling]\nreplay = "nowhere.h5"\n', r"case.toml:\d+: coupling.replay: nowhere.h5", {}),
     "no such record, fluid": ("cfd", FLUID + '[coupling]\nreplay = "case.toml"\n', r"replay: case.toml: no record", {}),

@@ -67,6 +67,7 @@ TEST(Wire, BlocksLieAsTheProtocolSays) {
   EXPECT_OFFSET("LOAD", LoadBlock, momentum);
   EXPECT_OFFSET("LOAD", LoadBlock, dry_faces);
   EXPECT_OFFSET("LOAD", LoadBlock, dry_area);
+  EXPECT_OFFSET("LOAD", LoadBlock, dt_next);
   EXPECT_OFFSET("BYE", ByeBlock, text);
   EXPECT_OFFSET("FAIL", FailBlock, window);
   EXPECT_OFFSET("FAIL", FailBlock, text);
@@ -175,6 +176,11 @@ TEST(Wire, LoadTotalsSurviveTheTrip) {
   const StepBlock asked = pack(Window{.index = 2, .t0 = 1, .t1_max = 2}, square());
   const LoadBlock b = pack(loads, asked);
   EXPECT_FALSE(check_load(b, asked));
+  StepBlock fixed = asked;
+  fixed.flags |= step_fixed;
+  EXPECT_EQ(check_load(b, fixed).has_value(), b.t1 != asked.t1_max);
+  fixed.t1_max = b.t1;
+  EXPECT_FALSE(check_load(b, fixed));
   EXPECT_EQ(b.flags, uint32_t(load_stop));
   const FluidTotals t = totals_of(b);
   EXPECT_EQ(t.momentum, (Vec3{11, 12, 13}));
