@@ -145,7 +145,8 @@ def leaders_stopped(folder):
     wait_for_mark(job, folder / "out")
     at = time.monotonic()
     for side in SIDES:
-        os.kill(pids_of(job, side)[0], signal.SIGSTOP)
+        for pid in pids_of(job, side)[:1]:
+            os.kill(pid, signal.SIGSTOP)
     said, seconds = end_of(job, at, faults, without_leaders(short))
     if seconds < -short:
         faults.append("ends too early")
@@ -166,7 +167,7 @@ def given(side, says, code=None, words=None, change=None):
         over.start()
         for line in job.stdout:
             lines.append(line)
-            if told_at is None and "error" in line:
+            if told_at is None and "] error: " in line:
                 told_at = time.monotonic()
         job.wait()
         over.cancel()

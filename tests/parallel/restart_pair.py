@@ -3,6 +3,7 @@
 """The pair goes on from a checkpoint with the bits of the run that was never stopped: a shell full of explosive that cracks; with other threads and
 ranks, killed at any instant, asked by a signal.
     restart_pair.py BUILD_FOLDER [from | killed | signal | refused ...] [--deaths N] [--seed N]
+    restart_pair.py BUILD_FOLDER schemes   under other coupling schemes
     restart_pair.py BUILD_FOLDER weapon    from the middle of the small weapon's burn, of its cracks, of its flight"""
 import os
 import pathlib
@@ -106,6 +107,13 @@ def go_on_weapon():
     return from_marks("weapon", weapon.CASE, ((1, (1, 1), 2), (3, (2, 1), 1), (6, (1, 2), 1), (8, (2, 2), 1), (11, (1, 1), 1), (-1, (2, 2), 1)))
 
 
+def go_on_schemes():
+    faults = []
+    for name, keys in {"concurrent": 'scheme = "concurrent"', "box1": 'scheme = "box1"', "window": 'window = "1 us"'}.items():
+        faults += from_marks(f"pair_{name}", f"{CASE}[coupling]\n{keys}\n", ((1, (1, 1), 2), (4, (2, 1), 1), (-1, (1, 2), 1)))
+    return faults
+
+
 def kill(process, victim):
     """SIGKILL to one program (None: to all of the job, mpirun included)."""
     children = subprocess.run(["ps", "-o", "pid=,comm=", "-g", str(process.pid)], capture_output=True, text=True).stdout.split("\n")
@@ -184,7 +192,7 @@ def refused():
 
 
 GROUPS = {"from": go_on, "killed": killed, "signal": signal, "refused": refused}
-LONG = {"weapon": go_on_weapon}
+LONG = {"weapon": go_on_weapon, "schemes": go_on_schemes}
 
 if __name__ == "__main__":
     failures = [fault for group in arguments or GROUPS for fault in (GROUPS | LONG)[group]()]
