@@ -72,21 +72,41 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   const double dt = loads.t1 - window.t0;
   area_.resize(quads_.size());
   ExactSum3 area_sum, moment_sum;
-  ExactSum area, scale;
+  ExactSum area, scale, moment_scale;
   for (size_t f = 0; f < quads_.size(); ++f) {
     area_[f] = area_vector(surface.x, quads_[f]);
     area_sum += area_[f];
-    moment_sum += cross(face_mean(surface.x, quads_[f]), area_[f]);
-    area += norm(area_[f]);
-    scale += std::abs(loads.p[f]) * norm(area_[f]) * dt;
-    if (!loads.traction.empty()) scale += norm(loads.traction[f]) * norm(area_[f]) * dt;
+    const Vec3 centre = face_mean(surface.x, quads_[f]);
+    moment_sum += cross(centre, area_[f]);
+    const double size = norm(area_[f]);
+    area += size;
+    double force = std::abs(loads.p[f]) * size;
+    if (!loads.traction.empty()) force += norm(loads.traction[f]) * size;
+    scale += force * dt;
+    moment_scale += force * norm(centre) * dt;
   }
   row_.area = area.value();
   row_.impulse_scale = scale.value();
+  row_.moment_scale = moment_scale.value();
   reference_impulse_ = (p_ref_ * dt) * area_sum.value();
   reference_moment_ = (p_ref_ * dt) * moment_sum.value();
   x_wall_.resize(surface.x.size());
   for (size_t i = 0; i < x_wall_.size(); ++i) x_wall_[i] = surface.x[i] + dt * surface.v[i];
+}
+
+void Ledger::add_to_sums(double tolerance) {
+  if (sums_.windows == 0) sums_.mass_first = row_.fluid.mass;
+  ++sums_.windows, sums_.born += row_.born, sums_.dead += row_.dead;
+  sums_.dry_most = std::max(sums_.dry_most, row_.fluid.dry_faces);
+  sums_.impulse_fluid += row_.fluid.impulse + reference_impulse_, sums_.impulse_solid += row_.solid.impulse;
+  sums_.moment_fluid += row_.fluid.moment + reference_moment_, sums_.moment_solid += row_.solid.moment;
+  const auto larger = [](double& most, double defect, double scale) {
+    if (scale > 0) most = std::max(most, defect / scale);
+  };
+  larger(sums_.impulse_defect, norm(row_.impulse_defect), row_.impulse_scale);
+  larger(sums_.moment_defect, norm(row_.moment_defect), row_.moment_scale);
+  sums_.moments_lost += norm(row_.moment_defect) > tolerance * row_.moment_scale;
+  sums_.gap_most = std::max(sums_.gap_most, std::abs(row_.volume_gap));
 }
 
 std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
@@ -104,6 +124,7 @@ std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
   const double defect = norm(row_.impulse_defect);
   // a fluid that counts its own step instead of t1 - t0 is off by the rounding of t1: no loss
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * row_.t1 / (row_.t1 - row_.t0);
+  add_to_sums(tolerance_ + rounding);
   if (defect <= (tolerance_ + rounding) * row_.impulse_scale) return {};
   return fmt::format(
       "ledger: in window {} the solid received an impulse of ({:.15g}, {:.15g}, {:.15g}) N s, the fluid gave ({:.15g}, "

@@ -36,12 +36,26 @@ struct LedgerRow {
   Vec3 impulse_defect;       ///< N s, solid - (fluid + p_ref A dt)
   Vec3 moment_defect;        ///< N m s, likewise
   double impulse_scale = 0;  ///< N s, sum |P A| dt
+  double moment_scale = 0;   ///< N m s, sum |P A| |x| dt
   double volume_gap = 0;     ///< m^3, solid's surface beyond the fluid's wall at t1 (fluid_first), before it is repaid
   int64_t born = 0, dead = 0;  ///< faces that came and went with this window's surface
   double added_mass = 0;       ///< 1, largest (impedance x dt / areal mass) of a face, set by SolidSide
   double area = 0;             ///< m^2
   double work_fluid = 0;       ///< J, the fluid's work beyond the reference pressure
   double work_fluid_sum = 0, work_solid_sum = 0;  ///< J since the start, beyond the reference pressure
+};
+
+/// The whole run.
+struct LedgerSums {
+  int64_t windows = 0, born = 0, dead = 0;
+  int64_t dry_most = 0;               ///< faces without fluid, most of a window
+  Vec3 impulse_fluid, impulse_solid;  ///< N s, of P - p_ref
+  Vec3 moment_fluid, moment_solid;    ///< N m s
+  double impulse_defect = 0;          ///< largest of a window, of sum |P A| dt
+  double moment_defect = 0;           ///< largest of a window, of sum |P A| |x| dt
+  int64_t moments_lost = 0;           ///< windows in which it was beyond round-off
+  double gap_most = 0;                ///< m^3, largest volume gap of a window
+  double mass_first = 0;              ///< kg, of the fluid at the end of the first window
 };
 
 class Ledger {
@@ -62,14 +76,18 @@ class Ledger {
   std::optional<std::string> close(std::span<const Vec3> x_end = {});
   void set_added_mass(double share) { row_.added_mass = share; }
   const LedgerRow& row() const { return row_; }
+  const LedgerSums& sums() const { return sums_; }
+  size_t face_count() const { return quads_.size(); }
   /// In a checkpoint, between two windows.
   template <class A>
   void keep(A& a) {
-    a.value("row", row_), a.value("first", first_), a.list("face_id", face_id_);
+    a.value("row", row_), a.value("sums", sums_), a.value("first", first_), a.list("face_id", face_id_);
     if (a.restores()) topo_version_ = -1;  // the next surface is looked at anew
   }
 
  private:
+  void add_to_sums(double tolerance);
+
   double p_ref_, tolerance_;
   bool first_ = true;
   int64_t topo_version_ = -1;
@@ -79,6 +97,7 @@ class Ledger {
   std::vector<Vec3> x_wall_;                   // [n_nodes] m, where the announced velocity takes the fluid's wall
   Vec3 reference_impulse_, reference_moment_;  // of p_ref A dt
   LedgerRow row_;
+  LedgerSums sums_;
 };
 
 }  // namespace bw::coupling

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/app/log.h"
 #include "common/app/timers.h"
 #include "coupling/handshake.h"
+#include "coupling/ledger_report.h"
 #include "coupling/ledger_table.h"
 
 namespace bw::coupling {
@@ -180,6 +182,14 @@ void SolidSide::end_window(std::span<const Vec3> x_end) {
   if (!channel_.leader()) return;
   if (const auto lost = ledger_.close(x_end)) channel_.fail(exit_ledger, *lost);
   if (history_) write_row(*history_, ledger_.row(), waited_);
+}
+
+void SolidSide::tell_ledger(double kinetic) const {
+  if (!channel_.leader()) return;
+  const LedgerReport books = report(ledger_, kinetic);
+  say("ledger of {} windows: {}", ledger_.sums().windows,
+      books.lost.empty() ? "nothing was lost" : fmt::format("LOST: {}", fmt::join(books.lost, "; ")));
+  for (const std::string& line : books.lines) say("  {}", line);
 }
 
 void SolidSide::finish(const std::string& reason) {

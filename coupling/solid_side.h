@@ -83,6 +83,9 @@ class SolidSide {
   const LedgerRow& books() const { return ledger_.row(); }
   /// BYE both ways. Nothing may be sent afterwards.
   void finish(const std::string& reason = "finished");
+  /// Says in a few lines what crossed in the whole run, and whether anything was lost; kinetic: J, the solid's. Before
+  /// finish().
+  void tell_ledger(double kinetic) const;
 
  private:
   void resume_table(int64_t rows);

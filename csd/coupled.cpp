@@ -6,10 +6,12 @@
 #include <filesystem>
 
 #include "common/app/log.h"
+#include "common/app/timers.h"
 #include "common/app/version.h"
 #include "common/io/file.h"
 #include "common/math/sum.h"
 #include "coupling/loads.h"
+#include "csd/energy.h"
 #include "csd/step.h"
 
 namespace bw::csd {
@@ -99,12 +101,18 @@ void Coupled::commit_with_next(const std::string& file, int keep) {
 
 double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   if (to_commit_) to_commit_->window = side_->next_window(), to_commit_->t = m.state.t;
-  surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
-  nodes_ = surface_.nodes();
-  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), areal_mass(m, surface_));
+  std::vector<double> mass;
+  {
+    const Timed timed("surface");
+    surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
+    nodes_ = surface_.nodes();
+    mass = areal_mass(m, surface_);
+  }
+  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), mass);
   const std::optional<coupling::Loads> expected = side_->expect();
   const coupling::Loads loads = expected ? *expected : side_->receive();
   if (!expected) hear();
+  const Timed timed("surface");
   const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), on_faces);
   const double dt = loads.t1 - m.state.t;
@@ -172,9 +180,13 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
   return back;
 }
 
-void Coupled::before_step(const Model& m) { x_before_ = positions(m); }
+void Coupled::before_step(const Model& m) {
+  const Timed timed("ledger");
+  x_before_ = positions(m);
+}
 
 void Coupled::after_step(const Model& m, double dt) {
+  const Timed timed("ledger");
   const std::vector<Vec3> now = positions(m);
   if (!expected_) side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));
   coupling::SolidTotals back;
@@ -194,6 +206,11 @@ void Coupled::end_window(const Model& m) {
     side_->add_advance(impulse.value(), radiation->work());
   }
   side_->end_window(positions(m));
+}
+
+void Coupled::finish(const Model& m) {
+  side_->tell_ledger(kinetic_energy(m.state));
+  side_->finish();
 }
 
 }  // namespace bw::csd

@@ -47,7 +47,8 @@ class Coupled {
   void before_step(const Model& model);
   void after_step(const Model& model, double dt);
   void end_window(const Model& model);
-  void finish() { side_->finish(); }
+  /// Tells what crossed in the whole run, and says BYE.
+  void finish(const Model& model);
 
  private:
   std::vector<Vec3> positions(const Model& model) const;

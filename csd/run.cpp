@@ -123,7 +123,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
       status = at_rest ? "converged" : "not converged";
     else if (m.state.t < t_end)
       status = coupled && coupled->stop_asked() ? "stopped by peer" : "max_steps";
-    if (coupled) coupled->finish();
+    if (coupled) coupled->finish(m);
   } catch (const PhysicsError& e) {
     out.finish(m, "failed", e.what());
     throw;

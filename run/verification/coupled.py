@@ -105,56 +105,6 @@ def c2():
             yield at_least(f"{scheme}, {mass:g} kg/m^2: that amplitude over the first (reported)", end / start, 0.0)
 
 
-def led_by_solid(text, window):
-    """The case with fixed windows of so many us."""
-    return text.replace("[coupling]\n", f'[coupling]\nwindow = "{window} us"\n')
-
-
-@case("schemes")
-def schemes():
-    """C1, C2, C3 under every scheme, led by the fluid's step and by fixed windows of the solid: error, order, energy"""
-    u = reference.free_piston(1e-3, 1.0)[0]
-    for scheme, books in (("box1", 0.05), ("fluid_first", 0.01), ("concurrent", 0.01)):
-        errors = {}
-        for window in (0,) if scheme == "concurrent" else (0, 100, 400):  # us; the fluid's own step is 12 us, its error in space 1e-4
-            text = piston(scheme, 10.0)
-            result = run(f"schemes_C1_{scheme}_{window}", led_by_solid(text, window) if window else text)
-            table, ledger = (fields.history(result.directory / f"{name}_history.csv") for name in ("solid", "coupling"))
-            measured = table["momentum x"][-1] / 1e-4
-            errors[window] = abs(measured / u - 1)
-            where = f"C1, {scheme}, " + (f"windows of {window} us" if window else "the fluid leads")
-            if window == 0:
-                yield close(f"{where}: kinetic energy against the gas's work", 0.5e-4 * measured ** 2, float(np.sum(ledger["fluid_work"])), books)
-            if window and scheme == "box1":  # of first order
-                yield at_least(f"{where}: u at 1 ms over the exact one (reported)", measured / u, 0.0, result.seconds)
-            else:
-                yield close(f"{where}: u at 1 ms", measured, u, 0.005, result.seconds)
-            yield at_most(f"{where}: impulse defect of any window", np.abs(ledger["impulse_defect"]).max(), 1e-12)
-        if scheme == "box1":  # of the others the gas's error in space is left; their order: tests coupled_order_*
-            yield at_least(f"C1, {scheme}: order in the window, 400 to 100 us (reported)", np.log(errors[400] / errors[100]) / np.log(4), 0.0)
-    mode = reference.gas_column_modes(0.8, 0.0)
-    wall = reference.reflected_state(2.0)
-    Z = wall.rho * wall.c + 1.225 * reference.air_sound()
-    hit, after = 0.1 / (2 * reference.air_sound()), (wall.p - 101325.0) / Z * (1 - np.exp(-Z * 1e-3 / 78.0))
-    for scheme, window in (("concurrent", 0), ("fluid_first", 200), ("box1", 200)):
-        where = f"{scheme}, " + (f"windows of {window} us" if window else "the fluid leads")
-        change = (lambda text: led_by_solid(text, window)) if window else (lambda text: text)
-        result = run(f"schemes_C2_{scheme}_{window}", change(closed_column(scheme, 0.8, 2 * np.pi * mode[0] * 1e-4, 20 / mode[0])))
-        table = fields.history(result.directory / "solid_history.csv")
-        frequency, (start, end) = oscillation(table["t"], probe(table, "wall", "x"), mode)
-        yield close(f"C2, {where}: frequency [Hz]", frequency, mode[0], 0.01, result.seconds)
-        yield at_most(f"C2, {where}: growth of the amplitude over 20 periods", max(0.0, end / start - 1), 0.02)
-        yield at_least(f"C2, {where}: amplitude, last third over first (reported)", end / start, 0.0)
-        result = run(f"schemes_C3_{scheme}_{window}", change(shock_on_slab(scheme, 2.0, 10.0, hit + 1e-3, 7800.0, 206e9, 2, True)))
-        table, ledger = (fields.history(result.directory / f"{name}_history.csv") for name in ("solid", "coupling"))
-        u = table["momentum x"][-1] / 78.0 / 1e-4
-        if scheme == "box1":  # of first order in such windows
-            yield at_least(f"C3, {where}: steel, u 1 ms after M = 2 over the exact one (reported)", u / after, 0.0, result.seconds)
-            continue
-        yield close(f"C3, {where}: steel, u 1 ms after M = 2", u, after, 0.01, result.seconds)
-        yield close(f"C3, {where}: its kinetic energy against the gas's work", table["kinetic_energy"][-1], float(ledger["fluid_work"].sum()), 0.02)
-
-
 @case("C2f")
 def c2_family():
     """C2 with slabs whose thickness mode is aliased by the windows: masses, stiffnesses, lengths of the column and both schemes; energy of the solid, \

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "coupling/ledger.h"
+#include "coupling/ledger_report.h"
 
 namespace bw::coupling {
 namespace {
@@ -93,6 +93,27 @@ TEST(Ledger, BothSidesBalance) {
         return sum;
       }(),
       1e-12 * row.impulse_scale);
+  EXPECT_LT(norm(ledger.sums().impulse_fluid - row.solid.impulse), 1e-12 * row.impulse_scale);
+  EXPECT_LT(norm(ledger.sums().moment_fluid - row.solid.moment), 1e-12 * row.moment_scale);
+  EXPECT_TRUE(report(ledger, 0).lost.empty());
+}
+
+TEST(Ledger, TheReportNamesWhatIsLost) {
+  const WetSurface s = patch(4);
+  const double dt = 1e-6;
+  Ledger ledger(0);
+  Loads loads = loads_for(s, 0, dt);
+  loads.totals.moment.z *= 1 + 1e-9;
+  ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, s, loads);
+  auto x = s.x;
+  for (size_t i = 0; i < x.size(); ++i) x[i] += (1.02 * dt) * s.v[i];
+  ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, x, dt));
+  EXPECT_FALSE(ledger.close(x));
+  const LedgerReport books = report(ledger, 0);
+  ASSERT_EQ(books.lost.size(), 2u);
+  EXPECT_EQ(books.lost[0].find("moment"), 0u);
+  EXPECT_EQ(books.lost[1].find("work"), 0u);
+  EXPECT_EQ(report(ledger, 3 * std::abs(ledger.row().work_solid_sum)).lost.size(), 1u);  // 0.7 % of the kinetic energy
 }
 
 TEST(Ledger, LostImpulseIsFound) {
