@@ -227,6 +227,14 @@ void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region,
       100 * (cavity.cell_volume / cavity.exact_volume - 1), density * cavity.cell_volume, region.material);
 }
 
+WallOptions make_wall_options(const WallsCase& walls) {
+  WallOptions r;
+  if (walls.slits != "centre") r.slits = walls.slits == "area" ? Slits::area : Slits::sealed;
+  if (walls.treatment != "half_riemann") r.treatment = walls.treatment == "mirror" ? WallTreatment::mirror : WallTreatment::first_order;
+  r.conservative = walls.loads == "conservative";
+  return r;
+}
+
 }  // namespace
 
 Model::Model(const Comm& comm, const Case& cs)
@@ -240,8 +248,7 @@ Model::Model(const Comm& comm, const Case& cs)
     afterburn_place = cs.fluid.afterburn->place;
   }
   setup.skip_quiet = cs.fluid.scheme.skip_quiet;
-  if (cs.fluid.walls.slits != "centre") slits = cs.fluid.walls.slits == "area" ? Slits::area : Slits::sealed;
-  conservative_loads = cs.fluid.walls.loads == "conservative";
+  wall_options = make_wall_options(cs.fluid.walls);
   if (cs.fluid.amr) refine = cs.fluid.amr->rules;
   if (cs.fluid.start_from) start = std::make_shared<Start>(begin_from(*cs.fluid.start_from, *this));
 }
@@ -250,7 +257,7 @@ void add_walls(Model& m, double p_ref) {
   const GridSize& size = m.forest.size();
   const BlockShape& s = m.forest.finest_shape();
   Lattice lattice{size.lower, s.h, m.forest.cells_of_level(m.forest.levels())};
-  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.slits, m.conservative_loads);
+  m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.wall_options);
 }
 
 std::vector<uint8_t> blocked_cells(const Model& m, int block) {

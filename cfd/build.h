@@ -23,8 +23,7 @@ struct Model {
   State state;
   FlowSetup setup;
   std::optional<RefineRules> refine;  ///< none: a uniform grid
-  Slits slits = Slits::centre;
-  bool conservative_loads = false;
+  WallOptions wall_options;
   std::optional<Walls> walls;    ///< embedded surface, if there is one
   std::optional<Bodies> bodies;  ///< stand-alone: what moves it
   std::shared_ptr<const Start> start;  ///< another run's end that this one begins with (cfd/start/paint.h); nullptr: none

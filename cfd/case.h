@@ -259,9 +259,13 @@ struct SchemeCase {
 };
 
 struct WallsCase {
-  std::string slits = "centre", loads = "pressure";
+  std::string treatment = "half_riemann", slits = "centre", loads = "pressure";
   template <class K>
   void describe(K& k) {
+    k.choice("treatment", treatment, {"half_riemann", "first_order", "mirror"},
+             "of cut links. half_riemann: half a Riemann problem at the wall where it is, at the end of a line through the cells, second order; first_order: the mirror "
+             "image of the cell, as if the wall were at the cell face; mirror: images of points before the wall on reconstructed gradients, the pressure with "
+             "dp/dn = -rho a_n, second order. Cells that walls uncover are filled alike");
     k.choice("slits", slits, {"centre", "area", "sealed"},
              "openings narrower than a cell, between walls thinner than one, and edges of such walls. centre: the line between two cell centres decides, all or "
              "nothing; area: gas flows through the open part of a cell face; sealed: nothing passes a cell face of which any part is blocked");

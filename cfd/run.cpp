@@ -160,7 +160,7 @@ int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   const std::optional<Restart> from = open_restart(cs, mark ? mark->fluid_path() : "", m.forest.comm());
   coupling::Hello hello;
   hello.program = "cfd", hello.version = version();
-  hello.features = coupling::feature_checkpoint | (m.conservative_loads ? coupling::feature_traction : 0);
+  hello.features = coupling::feature_checkpoint | (m.wall_options.conservative ? uint64_t(coupling::feature_traction) : 0);
   if (mark) hello.first_window = mark->window, hello.restart_hash = mark->hash(), hello.t0 = from->head.t;
   hello.t_end = cs.run.time.end;
   hello.lower = cs.fluid.grid.lower, hello.upper = cs.fluid.grid.upper;

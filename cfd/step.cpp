@@ -30,7 +30,10 @@ double place_walls(Model& m, Sweep& sweep, Books& books, const WallMotion& motio
     }
     follow_walls(m, sweep, books);
     const double largest = m.walls->largest_step();
-    if (largest >= dt || i == most_tries) return dt;
+    if (largest >= dt || i == most_tries) {
+      m.walls->set_step(dt);
+      return dt;
+    }
     dt = 0.9 * largest;
   }
 }

@@ -38,8 +38,8 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     if (!walls_) continue;
     space.cuts = PatchCuts(forest.finest_shape());
     for (int m = 0; m < 2; ++m)
-      if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.finest_shape());
-    space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.finest_shape());
+      if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.finest_shape(), walls_->treatment());
+    space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.finest_shape(), walls_->treatment());
   }
 }
 

@@ -12,6 +12,7 @@
 // comes in, and such a wave must not be prolonged from inside: at 45 degrees sound between wall and gas would grow. So
 // the slope counts by the cosine of twice the angle between line and normal, and nothing from 45 degrees on (first
 // order, stable).
+// Two other treatments (WallTreatment) take the ghost value and the state beyond the cell face from the mirror instead.
 // Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
 #pragma once
 #include <cmath>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "cfd/embed/cut_scheme.h"
+#include "cfd/embed/mirror.h"
 #include "cfd/embed/orifice.h"
 #include "cfd/embed/wall_gas.h"
 #include "cfd/scheme/block_kernel.h"
@@ -40,7 +42,8 @@ class CutKernel {
   using State = typename Gas::State;
   static constexpr int n = Flow::n, n_flux = Flow::n_flux;
 
-  explicit CutKernel(const BlockShape& shape) : shape_(shape) {}
+  explicit CutKernel(const BlockShape& shape, WallTreatment treatment = WallTreatment::half_riemann)
+      : shape_(shape), treatment_(treatment) {}
 
   /// After BlockKernel::advance with the same arguments: corrects `change` in and near cut cells, 0 in blocked ones.
   void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt,
@@ -76,23 +79,13 @@ class CutKernel {
   WallLoad load(const Index3& cell, const Vec3& x, const Vec3& normal, const Vec3& v_wall) {
     const Cell c = cell_at(cell[2], cell[1], cell[0]);
     const Predicted& own = predicted(c);
-    const State mean = read(c);
-    State sum = own.half;
-    State slope{};
-    for (int d = 0; d < 3; ++d) {
-      if (!shape_.used[size_t(d)]) continue;
-      const bool low = !cuts_->cut(c.c, d, 0), high = !cuts_->cut(c.c, d, 1);
-      if (!low && !high) continue;
-      const State a = low ? read(moved(c, d, -1)) : mean, b = high ? read(moved(c, d, 1)) : mean;
-      const double centre = patch_->lower[d] + (cell[size_t(d)] + 0.5) * shape_.h[d];
-      const double share = std::clamp((x[d] - centre) / shape_.h[d], -2.0, 2.0) * (low && high ? 0.5 : 1.0);
-      for (size_t q = 0; q < size_t(n); ++q) slope[q] += share * (b[q] - a[q]);
+    State near = own.half;
+    if (treatment_ != WallTreatment::first_order) {
+      const State mean = read(c), change = reached(c, mean, x - centre_of(cell));
+      State sum = own.half;
+      for (size_t q = 0; q < size_t(n); ++q) sum[q] += change[q] - mean[q];
+      near = sum[Gas::p] > 0 && Gas::rho(sum) > 0 ? sum : mean;
     }
-    State other = mean;
-    for (size_t q = 0; q < size_t(n); ++q) other[q] -= slope[q];
-    const State change = Gas::beyond(mean, other, 1);
-    for (size_t q = 0; q < size_t(n); ++q) sum[q] += change[q] - mean[q];
-    const State near = sum[Gas::p] > 0 && Gas::rho(sum) > 0 ? sum : mean;
     const typename Gas::AtWall star = gas_->at_wall(near, normal, v_wall);
     return {star.w[Gas::p], std::sqrt(star.rho_c2 * Gas::rho(star.w))};
   }
@@ -120,19 +113,40 @@ class CutKernel {
   struct Predicted {
     State half;                ///< W(t + dt/2)
     double slope[3][Flow::n];  ///< limited, one-sided at walls
-    bool pocket;
+    bool pocket;               ///< or all is first order
   };
   struct Face {
     double F[Flow::n_flux];  ///< flux dt/h
     double v;                ///< face velocity dt/h
   };
 
+  Vec3 centre_of(const Index3& cell) const {
+    Vec3 x;
+    for (int e = 0; e < 3; ++e) x[e] = patch_->lower[e] + (cell[size_t(e)] + 0.5) * shape_.h[e];
+    return x;
+  }
   Cell cell_at(int k, int j, int i) const { return {cuts_->at(k, j, i), k * stride_[2] + j * stride_[1] + i}; }
   Cell moved(Cell x, int d, int by) const { return {x.c + by * cuts_->step(d), x.p + by * stride_[d]}; }
   State read(Cell x) const {
     State w;
     for (int q = 0; q < n; ++q) w[size_t(q)] = row_[q][x.p];
     return w;
+  }
+
+  /// The state of cell x, `mean`, prolonged by `offset` [m] along differences with its open neighbours.
+  State reached(Cell x, const State& mean, const Vec3& offset) const {
+    State slope{};
+    for (int d = 0; d < 3; ++d) {
+      if (!shape_.used[size_t(d)]) continue;
+      const bool low = !cuts_->cut(x.c, d, 0), high = !cuts_->cut(x.c, d, 1);
+      if (!low && !high) continue;
+      const State a = low ? read(moved(x, d, -1)) : mean, b = high ? read(moved(x, d, 1)) : mean;
+      const double share = std::clamp(offset[d] / shape_.h[d], -2.0, 2.0) * (low && high ? 0.5 : 1.0);
+      for (size_t q = 0; q < size_t(n); ++q) slope[q] += share * (b[q] - a[q]);
+    }
+    State other = mean;
+    for (size_t q = 0; q < size_t(n); ++q) other[q] -= slope[q];
+    return Gas::beyond(mean, other, 1);
   }
 
   void mark(BlockChange& change) {
@@ -198,7 +212,7 @@ class CutKernel {
     slot_[size_t(x.c)] = int32_t(predicted_.size());
     predicted_.emplace_back();
     Predicted& r = predicted_.back();
-    r.pocket = is_pocket(x);
+    r.pocket = treatment_ == WallTreatment::first_order || is_pocket(x);
     const State mean = read(x);
     double half[n], mean_w[n];
     for (int q = 0; q < n; ++q) half[q] = mean_w[q] = mean[size_t(q)];
@@ -228,9 +242,27 @@ class CutKernel {
   /// The value that the wall line has one cell beyond x, at t.
   State ghost(Cell x, const State& mean, int d, int side) const {
     const WallSide& w = cuts_->wall(x.c, d, side);
+    if (treatment_ == WallTreatment::mirror) {
+      if (shock_before(x, d, side, gas_->at_wall(mean, w.n, w.v).w[Gas::p]))
+        return mirrored(*gas_, mean, w, 0, 0.5 * dt_);
+      const Behind at = behind(w, d, side ? 1 : -1, w.s, 1);
+      return mirrored(*gas_, reached(x, mean, at.image), w, at.height, 0.5 * dt_);
+    }
     const State other = read(moved(x, d, side ? -1 : 1));
     const State star = gas_->at_wall(Gas::beyond(mean, other, w.s), w.n, w.v).w;
     return Gas::on_line(star, other, mean, (w.s - 1) / (1 + w.s));
+  }
+
+  /// Where a point behind a wall, `cells` along the link from the centre, has its mirror image [m, from the centre].
+  struct Behind {
+    Vec3 image;
+    double height;  ///< of the image above the wall
+  };
+  Behind behind(const WallSide& w, int d, double out, double s, double cells) const {
+    Vec3 point, on_wall;
+    point[d] = out * cells * shape_.h[d], on_wall[d] = out * s * shape_.h[d];
+    const Vec3 image = image_of(point, on_wall, w.n);
+    return {image, dot(image - on_wall, w.n)};
   }
 
   Face open_face(Cell low, Cell high, int d) {
@@ -281,6 +313,17 @@ class CutKernel {
   static State on_slope(const State& w, const Predicted& own, int d, double share) {
     State out = w;
     for (size_t q = 0; q < size_t(n); ++q) out[q] += share * own.slope[d][q];
+    return if_gas(out, w);
+  }
+  /// Half a step later, `offset` [m] from the centre.
+  State on_slopes(const Predicted& own, const Vec3& offset) const {
+    State out = own.half;
+    for (int d = 0; d < 3; ++d)
+      if (shape_.used[size_t(d)])
+        for (size_t q = 0; q < size_t(n); ++q) out[q] += offset[d] / shape_.h[d] * own.slope[d][q];
+    return if_gas(out, own.half);
+  }
+  static State if_gas(const State& out, const State& w) {
     const bool physical = out[Gas::p] > 0.2 * w[Gas::p] && Gas::rho(out) > 0.2 * Gas::rho(w);
     return physical ? out : w;
   }
@@ -371,11 +414,17 @@ class CutKernel {
     if (own.pocket) {
       const Vec3 back = -2 * dot(Gas::velocity(face) - w.v, w.n) * w.n;
       for (int e = 0; e < 3; ++e) face[size_t(Gas::v + e)] += back[e];
+    } else if (treatment_ == WallTreatment::mirror) {
+      const Behind at = behind(w, d, out, s, 0.5);
+      const bool shock = shock_before(x, d, side, gas_->at_wall(own.half, w.n, w.v).w[Gas::p]);
+      const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
+      face = shock ? mirrored(*gas_, own.half, w, 0) : mirrored(*gas_, on_slopes(own, share * at.image), w, at.height);
+      wall = {std::sqrt(std::max(gas_->stiffness(face), 0.0) / Gas::rho(face)), Gas::rho(face)};
     } else {
       const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
       typename Gas::AtWall star = gas_->at_wall(on_slope(own.half, own, d, out * share * s), w.n, w.v);
       face = on_slope(star.w, own, d, out * share * (0.5 - s));
-      if (star.w[Gas::p] > shock_ratio * read(moved(x, d, side ? -1 : 1))[Gas::p]) {
+      if (shock_before(x, d, side, star.w[Gas::p])) {
         star = gas_->at_wall(own.half, w.n, w.v);
         face = star.w;
       }
@@ -386,7 +435,8 @@ class CutKernel {
       inner[q] = own.half[q] + 0.5 * out * own.slope[d][q];
       beyond[q] = face[q];
     }
-    if (!own.pocket && behind_fan(inner, face, w.n, wall.c)) std::copy(beyond, beyond + n, inner);
+    if (treatment_ == WallTreatment::half_riemann && !own.pocket && behind_fan(inner, face, w.n, wall.c))
+      std::copy(beyond, beyond + n, inner);
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = share_of_face * out * shape_.cell_volume();
@@ -402,6 +452,11 @@ class CutKernel {
     exchange_->energy += volume * f.F[Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE)];
     ++exchange_->links;
     return f;
+  }
+
+  /// Does the wall's pressure stand behind a shock that the next cell has not seen?
+  bool shock_before(Cell x, int d, int side, double p_wall) const {
+    return p_wall > shock_ratio * read(moved(x, d, side ? -1 : 1))[Gas::p];
   }
 
   void note_link(Cell x, int d, double out, double s, int32_t face, const Vec3& impulse, double area_time) {
@@ -441,6 +496,7 @@ class CutKernel {
   }
 
   BlockShape shape_;
+  WallTreatment treatment_;
   const Patch* patch_ = nullptr;
   const PatchCuts* cuts_ = nullptr;
   const Flow* flow_ = nullptr;

@@ -27,6 +27,7 @@ struct WallSide {
   Vec3 n;             ///< unit normal of the face, into the fluid of this cell
   Vec3 v;             ///< velocity of the wall at the crossing [m/s]
   int32_t face = -1;  ///< index into WetSurface::quads, -1: none (an open surface ends here)
+  float a_n = 0;      ///< acceleration of the wall along n [m/s^2], where the treatment asks for it
 };
 /// Where on its face a crossing is: triangle `corner` of the face's fan (cfd/embed/scan.h), x = (1 - b - c) a + b b + c
 /// c.

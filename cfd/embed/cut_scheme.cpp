@@ -9,8 +9,8 @@ namespace {
 template <class Eos>
 class Scheme final : public CutScheme {
  public:
-  Scheme(const Eos& eos, const typename Eos::Flow& flow, const BlockShape& shape)
-      : eos_(eos), flow_(flow), kernel_(shape) {}
+  Scheme(const Eos& eos, const typename Eos::Flow& flow, const BlockShape& shape, WallTreatment treatment)
+      : eos_(eos), flow_(flow), kernel_(shape, treatment) {}
 
   void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change, WallExchange& exchange,
                std::vector<LinkLoad>* links) override {
@@ -31,17 +31,17 @@ class Scheme final : public CutScheme {
 
 }  // namespace
 
-std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape) {
+std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape, WallTreatment treatment) {
   return std::visit(
       [&](const auto& mix) -> std::unique_ptr<CutScheme> {
         using Eos = MixtureAtWall<std::decay_t<decltype(mix)>>;
-        return std::make_unique<Scheme<Eos>>(Eos{mix}, MixedFlow{mix.closure()}, shape);
+        return std::make_unique<Scheme<Eos>>(Eos{mix}, MixedFlow{mix.closure()}, shape, treatment);
       },
       mixture);
 }
 
-std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape) {
-  return std::make_unique<Scheme<GasAtWall>>(GasAtWall{gas.over_G, gas.Pi}, gas, shape);
+std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape, WallTreatment treatment) {
+  return std::make_unique<Scheme<GasAtWall>>(GasAtWall{gas.over_G, gas.Pi}, gas, shape, treatment);
 }
 
 }  // namespace bw::cfd

@@ -10,6 +10,13 @@
 
 namespace bw::cfd {
 
+/// What the gas meets at a cut link.
+enum class WallTreatment {
+  half_riemann,  ///< the wall where it is, at the end of a line through the cells: half a Riemann problem; second order
+  first_order,   ///< the mirror image of the cell itself, as if the wall were at the cell face
+  mirror,        ///< mirror images of points before the wall, on reconstructed gradients, with dp/dn = -rho a_n
+};
+
 /// What the fluid of a block lost through cut links in one step.
 struct WallExchange {
   double mass = 0;    ///< kg: a defect of link walls, not a leak
@@ -52,8 +59,10 @@ class CutScheme {
 };
 
 /// For patches of MixedFlow; also of one material, if all rows are filled. The mixture must outlive it.
-std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape);
+std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape,
+                                           WallTreatment treatment = WallTreatment::half_riemann);
 /// For patches of one gas.
-std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape);
+std::unique_ptr<CutScheme> make_cut_scheme(const GasFlow& gas, const BlockShape& shape,
+                                           WallTreatment treatment = WallTreatment::half_riemann);
 
 }  // namespace bw::cfd

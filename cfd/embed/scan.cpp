@@ -222,21 +222,30 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
   return watertight;
 }
 
+namespace {
+/// Nodal values at a crossing; a common value is kept exactly.
+Vec3 at_crossing(const coupling::WetSurface& surface, const std::vector<Vec3>& v, int32_t face, const OnFace& on) {
+  const auto& q = surface.quads[size_t(face)];
+  const bool triangle = q[2] == q[3];
+  const Vec3 a = v[q[on.corner]], b = v[q[(on.corner + 1) % 4]];
+  const Vec3 c = triangle ? v[q[2]] : 0.25 * ((v[q[0]] + v[q[2]]) + (v[q[1]] + v[q[3]]));
+  return a + on.b * (b - a) + on.c * (c - a);
+}
+/// update(side, where it is on its face) for both sides of all links and apertures.
+template <class Update>
+void for_each_side(CutMap& map, const Update& update) {
+  const auto both = [&](CutLink& l) { update(l.below, l.below_at), update(l.above, l.above_at); };
+  for (CutLink& l : map.links()) both(l);
+  for (Aperture& a : map.apertures()) both(a.link);
+}
+}  // namespace
+
 void update_velocities(const coupling::WetSurface& surface, CutMap& map) {
-  const auto& v = surface.v;
-  const auto at = [&](int32_t face, const OnFace& on) {
-    const auto& q = surface.quads[size_t(face)];
-    const bool triangle = q[2] == q[3];
-    const Vec3 a = v[q[on.corner]], b = v[q[(on.corner + 1) % 4]];
-    const Vec3 c = triangle ? v[q[2]] : 0.25 * ((v[q[0]] + v[q[2]]) + (v[q[1]] + v[q[3]]));
-    return a + on.b * (b - a) + on.c * (c - a);  // a common velocity is kept exactly
-  };
-  const auto update = [&](CutLink& l) {
-    l.below.v = at(l.below.face, l.below_at);
-    l.above.v = at(l.above.face, l.above_at);
-  };
-  for (CutLink& l : map.links()) update(l);
-  for (Aperture& a : map.apertures()) update(a.link);
+  for_each_side(map, [&](WallSide& w, const OnFace& at) { w.v = at_crossing(surface, surface.v, w.face, at); });
+}
+
+void update_accelerations(const coupling::WetSurface& surface, const std::vector<Vec3>& a, CutMap& map) {
+  for_each_side(map, [&](WallSide& w, const OnFace& at) { w.a_n = float(dot(at_crossing(surface, a, w.face, at), w.n)); });
 }
 
 }  // namespace bw::cfd

@@ -27,5 +27,7 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
 
 /// The walls' velocities at all crossings, from surface.v: the surface has other velocities now, at the same places.
 void update_velocities(const coupling::WetSurface& surface, CutMap& map);
+/// Likewise their accelerations along the normals, from `a` [n_nodes, m/s^2].
+void update_accelerations(const coupling::WetSurface& surface, const std::vector<Vec3>& a, CutMap& map);
 
 }  // namespace bw::cfd

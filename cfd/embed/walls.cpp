@@ -10,8 +10,8 @@
 namespace bw::cfd {
 
 Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
-             Slits slits, bool conservative)
-    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), slits_(slits), conservative_(conservative) {
+             const WallOptions& options)
+    : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), options_(options) {
   for (size_t d = 0; d < 3; ++d) blocks_[d] = lattice.n[d] / block[d];
   map_.clear(lattice);
 }
@@ -33,9 +33,13 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
       before = std::move(surface_.x);
     } else {
       const coupling::NodePlaces now(surface);
+      std::vector<Vec3> v_last = v_last_.empty() ? v_last_ : v;
       for (size_t i = 0; i < x.size() && placed_; ++i)
-        if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0)
+        if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0) {
           before[i] = surface_.x[size_t(old)];
+          if (!v_last.empty()) v_last[i] = v_last_[size_t(old)];
+        }
+      v_last_ = std::move(v_last);
       surface_ = surface;
       places_ = now;
       lips_.pair(surface_);
@@ -50,6 +54,14 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
   values_.assign(2 * probes_.size(), 0.0);
 }
 
+void Walls::set_step(double dt) {
+  dt_ = dt;
+  if (options_.treatment != WallTreatment::mirror || v_last_.empty()) return;
+  std::vector<Vec3> a(surface_.v.size());
+  for (size_t i = 0; i < a.size(); ++i) a[i] = (surface_.v[i] - v_last_[i]) * (2 / (dt + dt_last_));
+  update_accelerations(surface_, a, map_);
+}
+
 void Walls::place_probes() {
   probes_ = find_probes(surface_, map_);
   std::stable_sort(probes_.begin(), probes_.end(),
@@ -62,6 +74,7 @@ void Walls::place_probes() {
 
 void Walls::end(const std::vector<Vec3>& x_end) {
   changes_ = {};
+  if (options_.treatment == WallTreatment::mirror && dt_ > 0) v_last_ = surface_.v, dt_last_ = dt_;
   if (x_end == surface_.x) return;
   const std::vector<Vec3> before = std::move(surface_.x);
   surface_.x = x_end;
@@ -72,7 +85,7 @@ void Walls::rescan(const std::vector<Vec3>* x_before) {
   probes_current_ = false;
   CutMap now;
   scan(surface_, lattice_, now);
-  if (slits_ != Slits::centre) find_apertures(surface_, slits_, now);
+  if (options_.slits != Slits::centre) find_apertures(surface_, options_.slits, now);
   if (x_before) changes_ = compare(map_, now, swept_cells(surface_, *x_before, lattice_));
   map_ = std::move(now);
 }
@@ -144,7 +157,7 @@ coupling::Loads Walls::loads() {
     if (lattice_.active(d)) h = std::min(h, lattice_.h[d]);
   lip_force_ = {};
   r.p.resize(faces);
-  if (conservative_) r.traction.assign(faces, {});
+  if (conservative()) r.traction.assign(faces, {});
   for (size_t f = 0; f < faces; ++f) {
     const bool thin = !surface_.flags.empty() && surface_.flags[f] & coupling::face_thin;
     r.p[f] = thin ? p_ref_ + p[0][f] - p[1][f] : p[0][f];
@@ -152,7 +165,7 @@ coupling::Loads Walls::loads() {
     if (!wet[f]) {
       ++r.totals.dry_faces;
       r.totals.dry_area += norm(area);
-    } else if (!conservative_ && !surface_.flags.empty() && surface_.flags[f] & coupling::face_lip) {
+    } else if (!conservative() && !surface_.flags.empty() && surface_.flags[f] & coupling::face_lip) {
       const double aperture = lips_.aperture(surface_, int32_t(f)), full = r.p[f];
       const double first = first_aperture_.emplace(surface_.face_id[f], std::max(aperture, 0.0)).first->second;
       const double open = aperture < Lips::apart ? std::clamp(2 * (aperture - first) / h, 0.0, 1.0) : 1.0;
@@ -160,7 +173,7 @@ coupling::Loads Walls::loads() {
       r.impedance[f] *= open;
       lip_force_ += (r.p[f] - full) * area;
     }
-    if (const double size = norm(area); conservative_ && size > 0 && (wet[f] || face_forces_.met[f]))
+    if (const double size = norm(area); conservative() && size > 0 && (wet[f] || face_forces_.met[f]))
       r.traction[f] = (face_forces_.force[f] + (r.p[f] - p_ref_) * area) / size;
   }
   return r;
@@ -181,6 +194,7 @@ void Walls::save(const Saved& to) const {
   for (const auto& [face, aperture] : apertures) faces.push_back(face), first.push_back(aperture);
   to.same("lips", faces);
   to.same("apertures", first);
+  if (options_.treatment == WallTreatment::mirror) to.same("v_last", v_last_), to.number("dt_last", dt_last_);
 }
 
 void Walls::restore(const Restored& from, const coupling::WetSurface& surface) {
@@ -193,6 +207,8 @@ void Walls::restore(const Restored& from, const coupling::WetSurface& surface) {
   const std::vector<double> first = from.same<double>("apertures");
   first_aperture_.clear();
   for (size_t i = 0; i < faces.size(); ++i) first_aperture_.emplace(faces[i], first[i]);
+  if (options_.treatment == WallTreatment::mirror)
+    v_last_ = from.same<Vec3>("v_last"), dt_last_ = from.number<double>("dt_last");
   probes_current_ = false;
 }
 

@@ -35,15 +35,25 @@ struct FaceForces {
   std::vector<Vec3> moment;  ///< [n_faces] N m about the origin, levers are the crossings
 };
 
+/// [fluid.walls]
+struct WallOptions {
+  Slits slits = Slits::centre;
+  WallTreatment treatment = WallTreatment::half_riemann;
+  bool conservative = false;  ///< loads
+};
+
 class Walls {
  public:
   /// block: cells per block and direction; p_ref [Pa]: on faces that see no fluid.
   Walls(const Lattice& lattice, const GhostRules& rules, const std::array<int, 3>& block, double p_ref,
-        Slits slits = Slits::centre, bool conservative = false);
+        const WallOptions& options = {});
 
   /// A window starts: nodes are at x and keep v for the window [n_nodes]. Rescans if the topology is new or the nodes
   /// are not where end() left them.
   void begin(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v);
+  /// The window will last dt: walls whose velocity is another than in the last one are accelerated. Unless it is called
+  /// before the step, and in the first window, the treatment `mirror` takes them for unaccelerated.
+  void set_step(double dt);
   /// The window is over: nodes are at x_end.
   void end(const std::vector<Vec3>& x_end);
   /// s; no wall goes further than half a cell.
@@ -79,7 +89,8 @@ class Walls {
   coupling::Loads loads();
   /// Do faces carry what the cut links across them gave? loads() then adds the traction that makes it so; lips are not
   /// blended.
-  bool conservative() const { return conservative_; }
+  bool conservative() const { return options_.conservative; }
+  WallTreatment treatment() const { return options_.treatment; }
   /// Before loads(): of the window of dt.
   void set_links(const std::vector<LinkLoad>& links, double dt);
   const FaceForces& face_forces() const { return face_forces_; }
@@ -89,7 +100,7 @@ class Walls {
   const coupling::WetSurface& surface() const { return surface_; }
 
   // --- checkpoints
-  /// Nodes, and what of the map follows from the past: cells that wait for fluid; apertures of lips.
+  /// Nodes, and what follows from the past: cells that wait for fluid; apertures of lips; the last window's velocities.
   void save(const Saved& to) const;
   /// Instead of the first begin(): surface as it was given to the last begin() before save().
   void restore(const Restored& from, const coupling::WetSurface& surface);
@@ -103,11 +114,12 @@ class Walls {
   GhostRules rules_;
   std::array<int, 3> block_, blocks_;
   double p_ref_;
-  Slits slits_;
-  bool conservative_;
+  WallOptions options_;
   FaceForces face_forces_;
   bool placed_ = false, probes_current_ = false;
   coupling::WetSurface surface_;
+  std::vector<Vec3> v_last_;  ///< of the last window, by node of surface_; empty: unknown or not wanted
+  double dt_ = 0, dt_last_ = 0;
   coupling::NodePlaces places_;
   Lips lips_;
   CutMap map_;

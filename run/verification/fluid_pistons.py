@@ -20,22 +20,27 @@ def piston(speed, point, normal=(1.0, 0.0, 0.0)):
 @case("F10")
 def f10():
     """Impulsively started pistons, 50 to 2000 m/s, pushing and withdrawing: wall pressure, density, mass, 400 cells; at 30 degrees to the grid"""
+    yield from aligned_pistons()
+    yield from oblique_pistons()
+
+
+def aligned_pistons(walls="", note=""):
+    """Pistons along the grid; walls: text of [fluid.walls]."""
     n, x0 = 400, 0.5
     for speed in (50, 100, 340, 1000, 2000, -50, -100, -340, -1000, -2000):
         t = 1e-3 if abs(speed) < 1000 else 2e-4
-        text = tube(0.0, 2.0, n, 0, ("wall", "wall"), t) + material("air", reference.GAS)
+        text = tube(0.0, 2.0, n, 0, ("wall", "wall"), t) + walls + material("air", reference.GAS)
         text += region('{kind = "everywhere"}', "air", 1.225, 101325.0) + piston(speed, (x0, 0, 0))
-        result = run(f"F10_{speed}", text, only="fluid")
+        result = run(f"F10_{speed}{note}", text, only="fluid")
         x, rho, u, p = profile(result.directory, 0)
-        yield from impulsive(speed, x, rho, p, x0, t, 2.0 / n, result.seconds)
+        yield from impulsive(speed, x, rho, p, x0, t, 2.0 / n, result.seconds, note)
         # mass: cells are whole, so their edge beside the wall is up to half a cell off
         h = 2.0 / n
         open_cells = x > x0 + speed * t
         first = x[open_cells][0]
         mass = float(np.sum(rho[open_cells]) * h + rho[open_cells][0] * (first - 0.5 * h - (x0 + speed * t)))
-        name = f"{'push' if speed > 0 else 'withdraw'} {abs(speed)} m/s"
+        name = f"{'push' if speed > 0 else 'withdraw'} {abs(speed)} m/s{note}"
         yield at_most(f"{name}: mass in front of the wall, off by so many cells of gas at rest", abs(mass - 1.225 * (2.0 - x0)) / (1.225 * h), 1.0)
-    yield from oblique_pistons()
 
 
 def impulsive(speed, x, rho, p, x0, t, h, seconds, note=""):
@@ -55,8 +60,8 @@ def impulsive(speed, x, rho, p, x0, t, h, seconds, note=""):
         yield at_least(f"{name}: least pressure", p[x > wall].min(), 0.0)
 
 
-def oblique_pistons():
-    """The wall leans by 30 degrees: a line along its way through the middle of a box."""
+def oblique_pistons(walls="", note=""):
+    """The wall leans by 30 degrees: a line along its way through the middle of a box; walls: text of [fluid.walls]."""
     n, angle = 200, math.radians(30)
     normal = (math.cos(angle), math.sin(angle), 0.0)
     h, centre = 1.0 / n, np.array([0.5, 0.5])
@@ -65,8 +70,8 @@ def oblique_pistons():
         text = (f"[time]\nend = {t!r}\n" + output(f"{t!r} s", "0 s")
                 + f'[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, {h!r}]\ncells = [{n}, {n}, 1]\n'
                 + 'boundary = {x_lower = "outflow", x_upper = "outflow", y_lower = "outflow", y_upper = "outflow"}\n')
-        text += material("air", reference.GAS) + region('{kind = "everywhere"}', "air", 1.225, 101325.0) + piston(speed, (*centre, 0.0), normal)
-        result = run(f"F10_30deg_{speed}", text, only="fluid")
+        text += walls + material("air", reference.GAS) + region('{kind = "everywhere"}', "air", 1.225, 101325.0) + piston(speed, (*centre, 0.0), normal)
+        result = run(f"F10_30deg_{speed}{note}", text, only="fluid")
         flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
         X, Y = np.meshgrid(flow.centres(0), flow.centres(1), indexing="ij")
         way = (X - centre[0]) * normal[0] + (Y - centre[1]) * normal[1]
@@ -74,7 +79,7 @@ def oblique_pistons():
         rho, p = flow.array("density")[:, :, 0], flow.array("pressure")[:, :, 0]
         pick = (np.abs(aside) < 0.5 * h) & (way > speed * t)
         order = np.argsort(way[pick])
-        yield from impulsive(speed, way[pick][order], rho[pick][order], p[pick][order], start, t, h, result.seconds, ", 30 deg")
+        yield from impulsive(speed, way[pick][order], rho[pick][order], p[pick][order], start, t, h, result.seconds, ", 30 deg" + note)
 
 
 @case("F10b")

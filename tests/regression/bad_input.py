@@ -124,6 +124,7 @@ CASES = {
     "unknown way with slits": ("cfd", FLUID + '[fluid.walls]\nslits = "open"\n', r"case.toml:\d+:.*slits.*centre", {}),
     "far field without a state": ("cfd", FLUID.replace("cells = [16, 1, 1]", 'cells = [16, 1, 1]\nboundary = {x_upper = "far_field"}'), r"boundary.*far_field", {}),
     "too much noise": ("cfd", FLUID.replace("cells = [16, 1, 1]", "cells = [16, 1, 1]\nperturbation = 0.7"), r"perturbation", {}),
+    "unknown treatment of walls": ("cfd", FLUID + '[fluid.walls]\ntreatment = "second_order"\n', r"case.toml:\d+:.*treatment.*mirror", {}),
     "unknown kind of loads": ("cfd", FLUID + '[fluid.walls]\nloads = "links"\n', r"case.toml:\d+:.*loads.*conservative", {}),
     "free body with mass and density": ("cfd", FLUID + FREE.format("density = 1, mass = 1"), r"case.toml:\d+:.*density.*not both", {}),
     "free body in a direction that isn't": ("cfd", FLUID + FREE.format('mass = 1, fixed = ["x", "turn"]'), r"fixed.*turn_x", {}),

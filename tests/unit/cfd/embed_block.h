@@ -15,8 +15,9 @@ struct OneBlock {
   using Eos = MixtureAtWall<Mix>;
   using W = std::array<double, Prim::count>;
 
-  OneBlock(const Lattice& g, Mix m, GhostRule rule = GhostRule::mirror)
-      : lattice(g), mix(m), flow{m.closure()}, shape(shape_of(g)) {
+  OneBlock(const Lattice& g, Mix m, GhostRule rule = GhostRule::mirror,
+           WallTreatment treatment = WallTreatment::half_riemann)
+      : lattice(g), mix(m), flow{m.closure()}, shape(shape_of(g)), cut(shape, treatment) {
     rules.fill(rule);
     patch = Patch(shape);
     patch.lower = g.lower;
@@ -60,6 +61,7 @@ struct OneBlock {
   void place(const WetSurface& s) {
     surface = s;
     scan(surface, lattice, map);
+    if (!acceleration.empty()) update_accelerations(surface, acceleration, map);
     cuts.gather(map, rules, {});
   }
   /// Moves the nodes with their velocities for dt, refills.
@@ -176,12 +178,13 @@ struct OneBlock {
   BlockChange change;
   std::vector<std::array<double, Cons::count>> u;
   WetSurface surface;
+  std::vector<Vec3> acceleration;  // [n_nodes]; empty: none
   CutMap map;
   WallExchange exchange;
   double added = 0, removed = 0;  // kg by refilling and covering
   int64_t refilled = 0;
   BlockKernel<MixedFlow, Pack> kernel{shape};
-  CutKernel<Eos> cut{shape};
+  CutKernel<Eos> cut;
 };
 
 using TwoGases = FiveEquation<IdealGas, IdealGas>;

@@ -22,18 +22,21 @@ struct SmoothPiston {
   double p(double t) const { return std::pow(1 + 0.2 * v(t) / std::sqrt(1.4), 7); }
 };
 
-double wall_pressure_error(double A, int cells) {
+double wall_pressure_error(double A, int cells, WallTreatment treatment = WallTreatment::half_riemann) {
   const SmoothPiston piston{A};
   const double h = 2.0 / cells;
-  OneBlock<TwoGases> b({{-0.5, 0, 0}, {h, 1, 1}, {cells, 1, 1}}, {});
+  OneBlock<TwoGases> b({{-0.5, 0, 0}, {h, 1, 1}, {cells, 1, 1}}, {}, GhostRule::mirror, treatment);
   b.paint([](const Vec3&) { return gas(1, {}, 1); });
   b.place(box({-5, -1, -1}, {piston.x(0), 2, 2}));
-  double t = 0, sum = 0;
+  double t = 0, sum = 0, v_last = 0, dt_last = 0;
   const double end = 0.7;
   while (t < end - 1e-12) {
     const double dt = std::min(0.4 * h / (std::sqrt(1.4) + std::abs(A) + 0.3), end - t);
     // over the window the wall moves straight to its place at the end
     set_velocity(b.surface, {(piston.x(t + dt) - piston.x(t)) / dt, 0, 0});
+    if (treatment == WallTreatment::mirror)
+      b.acceleration.assign(b.surface.x.size(), {2 * (b.surface.v[0].x - v_last) / (dt + dt_last), 0, 0});
+    v_last = b.surface.v[0].x, dt_last = dt;
     b.place(b.surface);
     b.advance(dt);
     int first = 0;
@@ -62,6 +65,23 @@ TEST(EmbedPiston, SmoothPistonIsSecondOrder) {
     EXPECT_LT(e1, 1.2 * reference[i]);
     EXPECT_GT(std::log2(e1 / e4) / 2, 1.9);
   }
+}
+
+/// The other treatments of cut links, of which one is to be of first and one of second order.
+TEST(EmbedPiston, OtherTreatmentsOfSmoothPistons) {
+  for (const WallTreatment treatment : {WallTreatment::first_order, WallTreatment::mirror})
+    for (const double A : {-0.5, -0.3, 0.3}) {
+      double e[3];
+      for (int i = 0; i < 3; ++i) e[i] = wall_pressure_error(A, 100 << i, treatment);
+      const double order = std::log2(e[0] / e[2]) / 2;
+      std::printf("A = %g: rms error %.3e %.3e %.3e, order %.2f\n", A, e[0], e[1], e[2], order);
+      const bool is_first = treatment == WallTreatment::first_order;
+      const std::string key =
+          fmt::format("{}_{}{:g}", is_first ? "first_order" : "mirror", A > 0 ? "p" : "m", std::abs(A));
+      RecordProperty(key + "_error_100", fmt::format("{:.3e}", e[0]));
+      RecordProperty(key + "_short_of_order", fmt::format("{:.3f}", std::max(0.0, (is_first ? 1 : 2) - order)));
+      EXPECT_LT(e[2], e[0]);
+    }
 }
 
 // --- F10: impulsive piston

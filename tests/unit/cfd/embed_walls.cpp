@@ -20,7 +20,7 @@ struct Windows {
       : block(g, {}, rule),
         mixture(make_mixture(IdealGas{}, IdealGas{})),
         scheme(make_cut_scheme(mixture, block.shape)),
-        walls(g, block.rules, g.n, p_ref, Slits::centre, conservative) {}
+        walls(g, block.rules, g.n, p_ref, {.conservative = conservative}) {}
 
   void begin(const WetSurface& s) {
     walls.begin(s, s.x, s.v);
