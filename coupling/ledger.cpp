@@ -73,17 +73,20 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   area_.resize(quads_.size());
   ExactSum3 area_sum, moment_sum;
   ExactSum area, scale, moment_scale;
-  for (size_t f = 0; f < quads_.size(); ++f) {
-    area_[f] = area_vector(surface.x, quads_[f]);
-    area_sum += area_[f];
-    const Vec3 centre = face_mean(surface.x, quads_[f]);
-    moment_sum += cross(centre, area_[f]);
-    const double size = norm(area_[f]);
-    area += size;
-    double force = std::abs(loads.p[f]) * size;
-    if (!loads.traction.empty()) force += norm(loads.traction[f]) * size;
-    scale += force * dt;
-    moment_scale += force * norm(centre) * dt;
+  for (size_t begin = 0; begin < quads_.size(); begin += terms_at_once) {
+    Vec3 areas, moments;
+    double sizes = 0, forces = 0, levers = 0;
+    for (size_t f = begin; f < std::min(begin + terms_at_once, quads_.size()); ++f) {
+      area_[f] = area_vector(surface.x, quads_[f]);
+      const Vec3 centre = face_mean(surface.x, quads_[f]);
+      const double size = norm(area_[f]);
+      double force = std::abs(loads.p[f]) * size;
+      if (!loads.traction.empty()) force += norm(loads.traction[f]) * size;
+      areas += area_[f], moments += cross(centre, area_[f]);
+      sizes += size, forces += force, levers += force * norm(centre);
+    }
+    area_sum += areas, moment_sum += moments;
+    area += sizes, scale += forces * dt, moment_scale += levers * dt;
   }
   row_.area = area.value();
   row_.impulse_scale = scale.value();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/loads.h"
 
+#include <algorithm>
+
 #include "common/app/error.h"
 #include "common/math/sum.h"
 
@@ -37,16 +39,19 @@ FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span
       loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
   ExactSum3 impulses, moments;
   ExactSum work, swept;
-  for (size_t f = 0; f < loads.p.size(); ++f) {
-    const auto& q = surface.quads[f];
-    const Vec3 area = area_vector(surface.x, q);
-    const Vec3 v = face_mean(v_wall, q);
-    Vec3 impulse = -(loads.p[f] * dt) * area;
-    if (!loads.traction.empty()) impulse += (norm(area) * dt) * loads.traction[f];
-    impulses += impulse;
-    moments += cross(face_mean(surface.x, q), impulse);
-    work += dot(impulse, v);
-    swept += dot(area, v) * dt;
+  for (size_t begin = 0; begin < loads.p.size(); begin += terms_at_once) {
+    Vec3 force, moment;
+    double power = 0, rate = 0;
+    for (size_t f = begin; f < std::min(begin + terms_at_once, loads.p.size()); ++f) {
+      const auto& q = surface.quads[f];
+      const Vec3 area = area_vector(surface.x, q), v = face_mean(v_wall, q);
+      Vec3 one = -loads.p[f] * area;
+      if (!loads.traction.empty()) one += norm(area) * loads.traction[f];
+      force += one, moment += cross(face_mean(surface.x, q), one);
+      power += dot(one, v), rate += dot(area, v);
+    }
+    impulses += dt * force, moments += dt * moment;
+    work += power * dt, swept += rate * dt;
   }
   FluidTotals totals;
   totals.impulse = impulses.value();
