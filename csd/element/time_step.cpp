@@ -145,6 +145,35 @@ void TimeStep::refresh_all(const Elements& el, const State& s) {
   stale_ = false;
 }
 
+void TimeStep::set_corner(const Elements& el, SlotId slot, int a, double mass) {
+  const int block = slot / lanes, lane = slot % lanes, used = el.blocks.used[size_t(block)];
+  for (int l = lane; l < (lane == used - 1 ? lanes : lane + 1); ++l)  // padding copies the last element
+    mass_[size_t(block * 8 + a) * lanes + size_t(l)] = float(mass);
+}
+
+double TimeStep::borrowed(const Elements& el, ElemId e, const std::array<double, 8>& own) const {
+  const SlotId slot = el.blocks.slot[e];
+  double share = 0, mass = 0;
+  for (int a = 0; a < 8; ++a) {
+    share += mass_[size_t(slot / lanes * 8 + a) * lanes + size_t(slot % lanes)];
+    mass += own[size_t(a)];
+  }
+  return share / mass;
+}
+
+void TimeStep::make_heavier(const Elements& el, ElemId e, const std::array<double, 8>& more) {
+  const SlotId slot = el.blocks.slot[e];
+  for (int a = 0; a < 8; ++a)
+    set_corner(el, slot, a, mass_[size_t(slot / lanes * 8 + a) * lanes + size_t(slot % lanes)] + more[size_t(a)]);
+}
+
+void TimeStep::lend_nothing(const Mesh& mesh, const Elements& el, const State& s) {
+  for (size_t e = 0; e < el.blocks.slot.size(); ++e)
+    if (const SlotId slot = el.blocks.slot[ElemId(int64_t(e))]; el.blocks.is_own(slot))
+      for (int a = 0; const double mass : corner_masses(mesh, el, ElemId(int64_t(e)))) set_corner(el, slot, a++, mass);
+  for_blocks(el.blocks, [&](int block, int body) { renew_distortion(el, s, block, body, mass_, distortion_); });
+}
+
 void TimeStep::renew(const Mesh& mesh, const Topology& topology, const Elements& el, const State& s,
                      std::span<const NodeId> nodes) {
   if (stale_) return;
@@ -153,13 +182,10 @@ void TimeStep::renew(const Mesh& mesh, const Topology& topology, const Elements&
     for (const ElemId e : topology.elements(n)) {
       const SlotId slot = el.blocks.slot[e];
       if (!el.blocks.is_own(slot)) continue;
-      const int block = slot / lanes, lane = slot % lanes, used = el.blocks.used[size_t(block)];
-      blocks.push_back(block);
+      blocks.push_back(slot / lanes);
       const auto own = corner_masses(mesh, el, e);
       for (int a = 0; a < 8; ++a)
-        if (mesh.hex[e][size_t(a)] == n)
-          for (int l = lane; l < (lane == used - 1 ? lanes : lane + 1); ++l)  // padding copies the last element
-            mass_[size_t(block * 8 + a) * lanes + size_t(l)] = float(own[size_t(a)]);
+        if (mesh.hex[e][size_t(a)] == n) set_corner(el, slot, a, own[size_t(a)]);
     }
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stable time step of the whole model, and who limits it.
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 
@@ -32,6 +33,14 @@ class TimeStep {
   /// The lowest slot whose volume isn't positive (or not a number) in the last call.
   std::optional<SlotId> inverted() const { return inverted_; }
 
+  /// An element's present share of its nodes' masses over its own mass.
+  double borrowed(const Elements& elements, ElemId e, const std::array<double, 8>& own) const;
+  /// An own element has become heavier by `more` at its corners: its share grows by it.
+  void make_heavier(const Elements& elements, ElemId e, const std::array<double, 8>& more);
+  /// Every element has its own mass again, and the bound of it: what lending began with. From there on no bound rises
+  /// above the largest.
+  void lend_nothing(const Mesh& mesh, const Elements& elements, const State& s);
+
   /// The topology or the masses have changed.
   void renew() { stale_ = true; }
   /// These nodes were split by cracks, and have their new masses: the elements around get their own part of them there,
@@ -54,6 +63,7 @@ class TimeStep {
   }
 
  private:
+  void set_corner(const Elements& elements, SlotId slot, int a, double mass);
   void share_masses(const Elements& elements, const State& s);
   enum class Which { all, stiff, collapsed };                             // all: with new shares of mass
   double refresh(const Elements& elements, const State& s, Which which);  // the largest relative change

@@ -23,7 +23,9 @@ class MassScaling {
  public:
   MassScaling(const MassScalingCase& cs, const State& s);
 
-  /// The stable step, made at least minimum_step / safety. PhysicsError beyond the limit.
+  /// The stable step, made at least minimum_step / safety. PhysicsError beyond the limit. Elements whose own mass is
+  /// enough get none, even if they have lent so much of it (time_step.h) that they limit the step now: they take it
+  /// back.
   double enforce(const Mesh& mesh, Elements& elements, TimeStep& time_step, double safety, double stable, State& s);
   double added_mass() const { return added_; }            ///< kg, since before the start
   double added_energy() const { return energy_; }         ///< J, kinetic, that came with it since the start
@@ -36,7 +38,7 @@ class MassScaling {
   }
 
  private:
-  void add(const Mesh& mesh, Elements& elements, ElemId e, double part, State& s);
+  void add(const Mesh& mesh, Elements& elements, TimeStep& time_step, ElemId e, double part, State& s);
   MassScalingCase case_;
   double whole_ = 0, added_ = 0, energy_ = 0;
   int64_t heavier_ = 0;

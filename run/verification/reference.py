@@ -596,7 +596,7 @@ FLOW_LAWS = {
 
 def flow_history(name, t, eqps, share=0.9, start=293.0):
     """Flow stress [Pa] and temperature [K] along a given eqps(t), adiabatic: rho c_p dT = share sigma_y d(eqps), by the trapezium rule."""
-    density, specific_heat, law = FLOW_LAWS[name]
+    density, specific_heat, law = FLOW_LAWS[name] if isinstance(name, str) else name
     stress, temperature = np.zeros(len(t)), np.full(len(t), start)
     stress[0] = law(0.0, 0.0, start)
     for k in range(1, len(t)):
