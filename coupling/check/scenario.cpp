@@ -9,7 +9,6 @@
 
 #include "common/app/error.h"
 #include "common/app/log.h"
-#include "common/parallel/watchdog.h"
 
 namespace bw::coupling::check {
 namespace {
@@ -119,7 +118,6 @@ void mark_accident() {
 }
 
 void keep_silent(Channel& channel, const Options& options) {
-  stop_watching();  // only the other program is to end this
   const bool apart = !options.port.empty();
   std::this_thread::sleep_for(std::chrono::duration<double>(apart ? 2 * short_silence : 10 * short_silence));
   if (!apart) return;
