@@ -52,6 +52,7 @@ EnergyRow energy_row(const Physics& ph, const State& s) {
   }
   if (ph.contact) r.conditions += ph.contact->work(), r.contact += ph.contact->work();
   if (ph.relaxation) r.conditions += ph.relaxation->reaction.work, r.damping += ph.relaxation->reaction.work;
+  if (ph.rigid) r.conditions += ph.rigid->drag_work(), r.damping += ph.rigid->drag_work();
   if (ph.mass_scaling) r.mass_scaling = ph.mass_scaling->added_energy();
   r.residual = kinetic_product(s, s.short_dt) + r.elastic + r.plastic + r.filter + r.collapse + r.viscosity + r.cracks +
                r.rigidization + r.left - ph.energy.initial - r.external - r.conditions - r.mass_scaling;

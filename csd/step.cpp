@@ -44,7 +44,7 @@ void for_conditions(Model& m, std::initializer_list<Turn> turns, const Work& wor
 void on_force(Model& m, double dt) {
   for_conditions(m, {pulls, ties, holds, drags}, [&](auto& c) { c.on_force(m.state, dt); });
   if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
-  if (m.physics.rigid && m.state.local.all_due()) m.physics.rigid->take_forces(m.state);
+  if (m.physics.rigid && m.state.local.all_due()) m.physics.rigid->take_forces(m.state, dt * m.state.local.shortest());
 }
 void before_drift(Model& m, double dt) {
   for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.before_drift(m.state, dt); });
@@ -154,6 +154,7 @@ double stable_step(Model& m) {
 void change_given_forces(Model& m, std::vector<std::pair<Face, Vec3>> forces) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.give_back(m.state); }, kind);
   if (m.physics.relaxation) m.physics.relaxation->reaction.give_back(m.state);
+  if (m.physics.rigid) m.physics.rigid->give_back(m.state);
   m.physics.loads->replace_given(m.mesh, std::move(forces), m.state);
   on_force(m, 0);
 }

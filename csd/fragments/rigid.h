@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/math/units.h"
+#include "csd/fragments/air_drag.h"
 #include "csd/fragments/fragments.h"
 #include "csd/fragments/rigid_body.h"
 #include "csd/load/conditions/list.h"
@@ -38,6 +39,7 @@ struct RigidInput {
   std::vector<std::string> bodies;
   std::vector<double> switch_times;
   std::optional<BoxInput> box;
+  std::optional<DragInput> drag;
   template <class K>
   void describe(K& k) {
     k.optional("elements", elements,
@@ -57,6 +59,7 @@ struct RigidInput {
     k.table("box", box,
             "a fragment that has left this box altogether is retired: it becomes rigid, is recorded as it flew, stands "
             "still and costs nothing; absent: none");
+    k.table("drag", drag, "drag of still air on rigid bodies, on top of their loads; absent: none");
     k.expect(elements >= 0, "elements", "a number >= 0");
     k.expect(age >= 0, "age", "a time >= 0");
     k.expect(stress >= 0, "stress", "a stress >= 0");
@@ -84,7 +87,11 @@ class Rigid {
   void meet_walls(std::vector<ConditionKind>& conditions, State& s, double dt);
   void drift(State& s, double dt);  ///< after the nodes' own: places, and velocities as they have turned
   void after_elements(const Elements& el, State& s);  ///< nodes bear no internal force, flow is undone
-  void take_forces(State& s);                         ///< once all loads and conditions have added theirs
+  /// Once all loads and conditions have added theirs; dt: the step that ends, 0: they are summed up anew.
+  void take_forces(State& s, double dt);
+  /// Nodes lose what drag has added: their forces change within the step.
+  void give_back(State& s);
+  double drag_work() const { return drag_work_; }  ///< J, since the start
   /// Bound of the step [s] where no element gives one: the fastest turns by 0.05, or flies a tenth of its radius.
   double accurate_step() const;
 
@@ -115,6 +122,7 @@ class Rigid {
     a.lists("elements", elems_);
     a.value("next_switch", next_switch_), a.value("opened", opened_), a.value("waiting", is_waiting_);
     a.list("records", records_), a.value("left", left_);
+    if (input_.drag) a.list("air", air_), a.value("drag_work", drag_work_);
   }
   /// After keep() has restored, and the state with it: what follows from them.
   void go_on(Model& m);
@@ -130,6 +138,10 @@ class Rigid {
     Vec3 velocity, angular_momentum, spin;
     double kinetic_energy;
   };
+  struct Air {        // what a body feels of it
+    double area = 0;  // m^2, 0: it is too large
+    Vec3 R;           // N
+  };
   struct Kept {  // history of a rigid element in a block that has others
     SlotId slot;
     std::vector<double> values;
@@ -139,6 +151,8 @@ class Rigid {
   void retire(Model& m);
   void keep_calm(Model& m, std::vector<Piece>& pieces);
   void freeze(Model& m, const std::vector<Piece>& pieces);
+  Air air_of(const Model& m, const Piece& piece, const RigidBody& body) const;
+  void add_drag(size_t b, State& s, double dt);
   void release(Model& m);
   void renew_marks(Model& m);
   std::vector<Piece> pieces_of(Model& m, const std::vector<char>& is_label_wanted);
@@ -152,8 +166,10 @@ class Rigid {
   std::vector<int64_t> whole_;              // [label at the start] elements
   std::vector<RigidBody> bodies_;           // in the order in which they became
   std::vector<std::vector<ElemId>> elems_;  // [body]
-  std::vector<char> is_rigid_;              // [node]
-  std::vector<int32_t> body_at_;            // [node]
+  std::vector<Air> air_;                    // [body] where there is drag
+  double drag_work_ = 0;
+  std::vector<char> is_rigid_;    // [node]
+  std::vector<int32_t> body_at_;  // [node]
   std::vector<Kept> kept_;
   std::vector<Record> records_;
   Left left_;

@@ -140,11 +140,27 @@ void Rigid::freeze(Model& m, const std::vector<Piece>& pieces) {
     RigidBody body(nodes_of(m.mesh, piece.elems), s.x, s.v, s.m, motion_);
     const Kinetic before = kinetic(s, body.nodes());
     body.move_nodes(s.v);
-    body.take_forces(s.m, s.f);
-    book(m.physics.energy, before, kinetic(s, body.nodes()));
     bodies_.push_back(std::move(body));
     elems_.push_back(piece.elems);
+    if (input_.drag) air_.push_back(air_of(m, piece, bodies_.back())), add_drag(bodies_.size() - 1, s, 0);
+    bodies_.back().take_forces(s.m, s.f);
+    book(m.physics.energy, before, kinetic(s, bodies_.back().nodes()));
   }
+}
+
+/// A quarter of its surface is the mean presented area, exactly so for convex bodies [Cauchy].
+Rigid::Air Rigid::air_of(const Model& m, const Piece& piece, const RigidBody& body) const {
+  const DragInput& drag = *input_.drag;
+  if (drag.size > 0 && 2 * body.radius() > drag.size) return {};
+  if (drag.shape_factor > 0) return {drag.shape_factor * std::cbrt(body.mass() * body.mass()), {}};
+  double surface = 0;
+  for (const ElemId e : piece.elems)
+    for (int side = 0; side < 6; ++side)
+      if (!m.topology.is_bonded({e, side})) {
+        const auto quad = m.mesh.nodes_of({e, side});
+        surface += 0.5 * norm(cross(m.state.x[quad[2]] - m.state.x[quad[0]], m.state.x[quad[3]] - m.state.x[quad[1]]));
+      }
+  return {0.25 * surface, {}};
 }
 
 /// Bodies named in the case become deformable: their nodes get back the forces of their elements.
@@ -159,6 +175,7 @@ void Rigid::release(Model& m) {
   for (size_t b = 0; b < bodies_.size(); ++b) {
     if (!is_switched_[size_t(m.mesh.body[elems_[b].front()])] || bodies_[b].is_stopped()) {
       if (kept != b) bodies_[kept] = std::move(bodies_[b]), elems_[kept] = std::move(elems_[b]);
+      if (input_.drag) air_[kept] = air_[b];
       ++kept;
       continue;
     }
@@ -170,6 +187,7 @@ void Rigid::release(Model& m) {
       is_freed[size_t(n)] = 1, s.f[n] = m.physics.loads ? m.physics.loads->forces()[n] : Vec3{};
   }
   bodies_.erase(bodies_.begin() + std::ptrdiff_t(kept), bodies_.end()), elems_.resize(kept);
+  if (input_.drag) air_.resize(kept);
   for (const auto& condition : m.physics.conditions)
     std::visit(
         [&](const auto& c) {

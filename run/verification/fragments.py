@@ -55,6 +55,24 @@ def t21_rigid():
     yield at_most("kinetic energy: change of the rigid one", np.abs(rigid["kinetic_energy"] / rigid["kinetic_energy"][0] - 1).max(), 1e-12)
 
 
+@case("drag", quick=True)
+def drag():
+    """Drag of still air on fragments smaller than a cell: speed along the way of a cube that starts at 2.5 km/s, Cd constant and by Mach number"""
+    yield from unit_rows("csd", "Rigid.DragOfStillAir", {"drag_error": 1e-5})
+    for name, mach, coefficient in (("constant", [0.0], [1.2]), ("by Mach number", [0.5, 1.0, 1.5, 4.0], [0.8, 1.1, 1.25, 1.15])):
+        text = ('[time]\nend = "12 ms"\n' + output("0 s", "0.1 ms") + "[solid.time_step]\nfixed = 4e-5\n"
+                + '[[solid.body]]\nname = "cube"\nmesh = {kind = "box", lower = [0, 0, 0], upper = ["2 mm", "2 mm", "2 mm"], cells = [2, 2, 2]}\n'
+                + COPPER + 'velocity = ["1500 m/s", "2000 m/s", 0.0]\n'
+                + f'[solid.rigid]\nbodies = ["cube"]\ndrag = {{density = 1.2, sound_speed = 340.0, mach = {mach}, coefficient = {coefficient}}}\n')
+        result = run(f"drag_{name}", text, only="solid")
+        table = fields.history(result.directory / "solid_history.csv")
+        mass, area = 8930.0 * 8e-9, 6e-6
+        found = np.hypot(table["momentum x"], table["momentum y"]) / mass
+        expected = reference.fragment_flight(table["t"], 2500.0, mass, area, 1.2, 340.0, mach, coefficient)
+        yield at_most(f"Cd {name}: largest error of the speed in 12 ms, from 2.5 km/s to {expected[-1]:.0f} m/s", np.abs(found / expected - 1).max(), 1e-4, result.seconds)
+        yield at_most(f"Cd {name}: energy residual over the kinetic energy", np.abs(table["energy_residual"]).max() / table["kinetic_energy"][0], 1e-5)
+
+
 @case("CT")
 def contact():
     """Contact: collisions of rigid and deformable bodies, a cloud of 200 cubes between walls, a plate that is hit, lips of cracks"""

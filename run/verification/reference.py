@@ -331,6 +331,17 @@ def free_piston_before(eos, rho_i, p_i, mass, t, panels=1000):
     return u
 
 
+def fragment_flight(times, v0, mass, area, density, sound_speed, mach, coefficient, steps=2000):
+    """Speeds at `times` of a body in still air, m dv/dt = -1/2 rho Cd(v/c) A v^2: through t(v), Simpson's rule over 1/v, which is exact for constant Cd."""
+    def rate(s):  # of s = 1/v
+        return 0.5 * density * area / mass * np.interp(1 / s / sound_speed, mach, coefficient)
+    slowest = 1 / v0 + 0.5 * density * area / mass * max(coefficient) * times[-1]
+    s = np.linspace(1 / v0, slowest, steps + 1)
+    step = s[1] - s[0]
+    t = np.concatenate([[0.0], np.cumsum(step / 6 * (1 / rate(s[:-1]) + 4 / rate(s[:-1] + 0.5 * step) + 1 / rate(s[1:])))])
+    return 1 / np.interp(times, t, s)
+
+
 def driven_piston(u_p, rho0=1.225, p0=101325.0, gamma=1.4):
     """F10: wall pressure and density for a piston moving into (u_p > 0) or away from (u_p < 0) gas at rest, and the shock speed."""
     c0 = math.sqrt(gamma * p0 / rho0)

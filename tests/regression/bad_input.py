@@ -26,6 +26,7 @@ young_modulus = "206 GPa"
 poisson_ratio = 0.3
 flow = {kind = "linear", yield_stress = "400 MPa", hardening = "1 GPa"}
 """
+DRAG = '[solid.rigid.drag]\ndensity = 1.2\nsound_speed = 340\nmach = {}\ncoefficient = {}\n'
 FLUID = """\
 [time]
 end = "1 us"
@@ -181,6 +182,8 @@ CASES = {
     "unknown region": ("csd", SOLID + '[[solid.velocity]]\nnodes = "x_lowr"\nvelocity = [1.0, 0, 0]\n', r"x_lower", {}),
     "local steps and a filter": ("csd", SOLID + '[solid.time_step]\nlevels = 2\n[solid.filter]\nkind = "plain"\n', r"pressure filter", {}),
     "too many levels": ("csd", SOLID + '[solid.time_step]\nlevels = 9\n', r"from 0 to 6", {}),
+    "drag with Mach numbers that fall": ("csd", SOLID + DRAG.format("[1, 0.5]", "[1.2, 1.2]"), r"drag\.mach.*rise", {}),
+    "drag with too few coefficients": ("csd", SOLID + DRAG.format("[0, 1]", "[1.2]"), r"coefficient.*mach", {}),
     "no minimum step": ("csd", SOLID + '[solid.mass_scaling]\nminimum_step = 0.0\n', r"minimum_step", {}),
     "broken TOML": ("csd", swap(SOLID, "[[solid.body]]", "[[solid.body]"), r".", {}),
 }

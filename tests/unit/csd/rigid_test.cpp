@@ -430,6 +430,51 @@ TEST(Rigid, LeavingTheBoxIsRecordedAndCostsNothing) {
   }
 }
 
+/// Flight of a cube of 2 mm that starts at 2 km/s: speed and way after `end`, energy residual over the kinetic one.
+struct Flight {
+  double v, x, residual;
+};
+Flight flight(const DragInput& drag, double end, int steps) {
+  Model m = make_model(box({-1e-3, -1e-3, -1e-3}, {1e-3, 1e-3, 1e-3}, {2, 2, 2}), copper_elastic(), [](const Vec3&) {
+    return Vec3{1600, 0, -1200};
+  });
+  RigidInput input;
+  input.bodies = {"a"}, input.drag = drag;
+  m.physics.rigid.emplace(input, std::vector<std::string>{"a"}, m.mesh);
+  m.physics.rigid->start(m);
+  const double energy = kinetic_energy(m.state);
+  for (int n = 0; n < steps; ++n) step(m, end / steps);
+  const RigidBody& body = m.physics.rigid->bodies()[0];
+  EXPECT_LT(norm(cross(body.velocity(), {0.8, 0, -0.6})), 1e-9);
+  EXPECT_LT(norm(body.angular_momentum()), 1e-14 * body.mass() * 2000 * 1e-3);
+  return {norm(body.velocity()), norm(body.centre()), std::fabs(energy_row(m.physics, m.state).residual) / energy};
+}
+
+TEST(Rigid, DragOfStillAir) {
+  DragInput air;
+  air.density = 1.2, air.sound_speed = 340, air.mach = {0}, air.coefficient = {1.2};
+  const double mass = 8930 * 8e-9, area = 6 * 4e-6 / 4, L = 2 * mass / (1.2 * 1.2 * area), end = 1e-2;
+  const double v = 2000 / (1 + 2000 * end / L), x = L * std::log(1 + 2000 * end / L);
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const Flight f = flight(air, end, 200 << i);
+    error[i] = f.v / v - 1;
+    EXPECT_LT(std::fabs(f.x / x - 1), 2e-5);
+    EXPECT_LT(f.residual, 1e-6);
+  }
+  record("drag_error", std::fabs(error[1]));
+  EXPECT_LT(std::fabs(error[0]), 1e-5);
+  EXPECT_NEAR(error[0] / error[1], 4, 0.4);  // second order
+  air.shape_factor = area / std::cbrt(mass * mass);
+  EXPECT_NEAR(flight(air, end, 200).v / v - 1, error[0], 1e-12);
+  air.size = 2 * std::sqrt(3.0) * 1e-3 * 0.99;  // the corners are further out
+  EXPECT_NEAR(flight(air, end, 200).v, 2000, 1e-9);
+  air.size *= 1.02, air.mach = {0.5, 1, 3}, air.coefficient = {0.6, 1.4, 1.0};
+  EXPECT_EQ(air.coefficient_at(100), 0.6);
+  EXPECT_NEAR(air.coefficient_at(2 * 340), 1.2, 1e-12);
+  EXPECT_EQ(air.coefficient_at(2000), 1.0);
+}
+
 TEST(Walls, AMovingWallPushesADeformableBody) {
   RigidWall wall;
   wall.normal = {0, 0, 1}, wall.velocity = {0, 0, 20};
