@@ -13,7 +13,7 @@ CASE = ('[time]\nend = "60 us"\n' + output("20 us", "2 us")
         + 'nose_plug = "20 mm", tail_length = "60 mm", tail_diameter = "64 mm", tail_wall = "8 mm", base_plug = "14 mm", around = 16, through = 1}\n'
         + '[solid.body.material]\nkind = "j2"\ndensity = 7760.0\nyoung_modulus = "206 GPa"\npoisson_ratio = 0.3\n'
         + 'flow = {kind = "linear", yield_stress = "412 MPa", hardening = "2.78 GPa"}\n'
-        + '[fluid]\nlower = ["-80 mm", "-80 mm", "-80 mm"]\nupper = ["80 mm", "80 mm", "340 mm"]\ncells = [32, 32, 84]\n'
+        + '[fluid]\nlower = ["-80 mm", "-80 mm", "-80 mm"]\nupper = ["80 mm", "80 mm", "400 mm"]\ncells = [16, 16, 48]\n[fluid.amr]\nlevels = 1\nevery = 2\n'
         + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[[fluid.material]]\nname = "air"\nlibrary = "air"\n'
         + '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "air"\ndensity = 1.225\npressure = 101325.0\n'
         + '[[fluid.region]]\nshape = {kind = "cavity", seed = [0.001, 0.001, 0.13]}\nmaterial = "TNT"\nunburnt = true\npressure = 101325.0\n'
