@@ -47,10 +47,12 @@ struct CouplingCase {
     k.choice(
         "radiation", radiation, {"auto", "always", "never"},
         "inside a window a wet face feels rho c times the difference between its velocity and the announced one, as "
-        "sound leaves a wall at once: without it, vibrations of a light solid as fast as the windows grow. auto: under "
-        "fluid_first, which gives the impulse back in the next window; never: loads are constant over the window");
-    k.optional("silence_limit", silence_limit, dim::time,
-               "a program that hears nothing from the other for so long ends both");
+        "sound leaves a wall at once: without it, vibrations of a light solid as fast as the windows grow. auto: but "
+        "under "
+        "box1, as the others give the impulse back in the next window; never: loads are constant over the window");
+    k.optional(
+        "silence_limit", silence_limit, dim::time,
+        "a program that hears nothing from the other for so long ends both; longer than the fluid needs for a window");
     k.optional("join_limit", join_limit, dim::time, "longest wait for the other program at the start");
     k.choice(
         "join", join, {"names", "port"},

@@ -39,6 +39,9 @@ const char* word_of(int tag) {
 
 constexpr double last_words = 0.5;  // s that messages of a program that has ended may be under way
 
+const Lifeline* watched = nullptr;  // while messages are on their way
+bool is_watched_cut() { return watched && watched->is_cut(); }
+
 std::atomic<bool> ending{false};  // a failure is being told: what happens meanwhile changes nothing
 
 }  // namespace
@@ -264,6 +267,11 @@ void Channel::send(int tag, const void* data, size_t bytes) {
 
 void Channel::flush() {
   const Patience patience;
+  if (state_->line) {  // Open MPI 4.1 may not come back from MPI_Testall when the other end of a connection is gone
+    watched = state_->line.get();
+    watch_for(is_watched_cut, 1, exit_killed,
+              fmt::format("FAILED{}: {} died without a word: its connection is gone", state_->place(), peer()));
+  }
   for (;;) {
     int all = 0;
     check_mpi(MPI_Testall(int(state_->started.size()), state_->started.data(), &all, MPI_STATUSES_IGNORE),
@@ -275,6 +283,8 @@ void Channel::flush() {
     patience.rest();
   }
   state_->started.clear();
+  watched = nullptr;
+  if (state_->line) state_->watch_silence();
 }
 
 int Channel::wait(std::initializer_list<int> tags) {
@@ -331,7 +341,10 @@ void Channel::receive(int tag, const char* message, void* data, size_t bytes) {
   check_mpi(MPI_Recv(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, MPI_STATUS_IGNORE), "MPI_Recv");
 }
 
-void Channel::poll() { state_->look_for_failure(); }
+void Channel::poll() {
+  state_->watch_silence();
+  state_->look_for_failure();
+}
 
 void Channel::share(void* data, size_t bytes) { share_politely(mine(), data, bytes); }
 

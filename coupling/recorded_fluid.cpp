@@ -63,6 +63,12 @@ Verdict RecordedFluid::answer_window() {
                     "another mesh, or cracks that opened elsewhere or earlier",
                     record_.path(), step_.t0, step_.n_faces, step_.n_nodes, then.n_faces, then.n_nodes,
                     step_.n_faces == then.n_faces ? ", others" : "")};
+  if ((step_.flags & step_fixed) && record_.loads()[*at].t1 < step_.t1_max)
+    return Fault{
+        exit_record,
+        fmt::format("{}: the window from t = {:.9g} s is to end at {:.9g} s, in the record it ends at {:.9g} s: "
+                    "another coupling.scheme or coupling.window, or another material",
+                    record_.path(), step_.t0, step_.t1_max, record_.loads()[*at].t1)};
   const WetSurface was = record_.surface(*at);
   Loads loads = record_.load(*at);
   LoadBlock block = record_.loads()[*at];

@@ -164,7 +164,8 @@ const Loads& SolidSide::receive() {
   loads_.totals = totals_of(load);
 
   const double dt = loads_.t1 - window_.t0;
-  dt_next_ = load.dt_next > 0 ? load.dt_next : window_.fixed ? dt_next_ : dt;
+  const bool was_free = !window_.fixed && loads_.t1 < window_.t1_max;  // the fluid's own choice
+  dt_next_ = load.dt_next > 0 ? load.dt_next : was_free ? dt : dt_next_;
   if (loads_.t1 < window_.t1_max) dt_usual_ = dt;  // one that the limit cut short says nothing about the next
   if (channel_.leader()) {
     predictor_.window_lasted(dt);

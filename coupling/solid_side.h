@@ -80,6 +80,8 @@ class SolidSide {
   /// Closes the window's books; x_end = positions of the nodes as sent (leader; may be empty). Ends the run if impulse
   /// was lost.
   void end_window(std::span<const Vec3> x_end = {});
+  /// The other program's failure, if there is one by now, ends this one.
+  void poll() { channel_.poll(); }
   const LedgerRow& books() const { return ledger_.row(); }
   /// BYE both ways. Nothing may be sent afterwards.
   void finish(const std::string& reason = "finished");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/coupled.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "common/app/error.h"
 #include "common/app/log.h"
 #include "common/app/timers.h"
 #include "common/app/version.h"
@@ -52,6 +55,9 @@ double step_share(const TimeStepCase& how, double dt_stable) {
 }  // namespace
 
 void expect_fluid(const Case& cs, Model& m) {
+  if (cs.solid.rigid && cs.solid.rigid->drag && cs.solid.rigid->drag->size == 0)
+    throw InputError(fmt::format("{}: in a pair the size of a cell, a length > 0: the fluid pushes larger bodies",
+                                 cs.solid.rigid->drag->place));
   if (!m.physics.loads) m.physics.loads.emplace(m.mesh, std::vector<LoadKind>{});
   if (cs.coupling.radiates()) m.physics.loads->radiation.emplace();
 }
@@ -110,7 +116,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   }
   side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), mass);
   const std::optional<coupling::Loads> expected = side_->expect();
-  const coupling::Loads loads = expected ? *expected : side_->receive();
+  const coupling::Loads& loads = expected ? *expected : side_->receive();
   if (!expected) hear();
   const Timed timed("surface");
   const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
@@ -186,6 +192,7 @@ void Coupled::before_step(const Model& m) {
 }
 
 void Coupled::after_step(const Model& m, double dt) {
+  if (expected_) side_->poll();  // a fluid that fails meanwhile waits a moment only to be heard
   const Timed timed("ledger");
   const std::vector<Vec3> now = positions(m);
   if (!expected_) side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));

@@ -104,7 +104,10 @@ void take_levels(Model& m, double dt) {
     s.local.take_next();
     take_next_sums(s);
     if (m.physics.rigid) m.physics.rigid->after_elements(m.physics.elements, s);
-    if (m.physics.loads) m.physics.loads->add(m.mesh, s.t, s);
+    if (auto& loads = m.physics.loads) {
+      if (loads->radiation) loads->radiation->renew();
+      loads->add(m.mesh, s.t, s);
+    }
     on_force(m, 0);
   });
 }

@@ -9,6 +9,8 @@ namespace bw {
 /// From now on for `seconds`: unless this or stop_watching() is called again, the process says `text` and ends with the
 /// code. Only in programs with a Session; SIGALRM is theirs.
 void watch(double seconds, int code, const std::string& text);
+/// The same, asked every `seconds`, only if `is_over` says so: it runs in a signal handler.
+void watch_for(bool (*is_over)(), double seconds, int code, const std::string& text);
 void stop_watching();
 
 }  // namespace bw

@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "common/math/tensor.h"
@@ -15,6 +16,7 @@ namespace bw::csd {
 struct DragInput {
   double density = 0, sound_speed = 0, size = 0, shape_factor = 0;
   std::vector<double> mach, coefficient;
+  std::string place;  // of size
   template <class K>
   void describe(K& k) {
     k.required("density", density, dim::density, "of the air, which is at rest");
@@ -27,7 +29,7 @@ struct DragInput {
     k.optional(
         "size", size, dim::length,
         "only rigid bodies with no node further than half of it from their centre; in a pair the size of a cell: "
-        "larger ones feel the fluid's pressures. 0: all");
+        "larger ones feel the fluid's pressures. 0: all, not in a pair");
     k.optional("shape_factor", shape_factor, dim::none,
                "mean presented area over mass^(2/3) [m^2/kg^(2/3)], as in the table of fragments; 0: a quarter of each "
                "body's own surface");
@@ -35,6 +37,7 @@ struct DragInput {
     k.expect(sound_speed > 0, "sound_speed", "a positive velocity");
     k.expect(size >= 0, "size", "a length >= 0");
     k.expect(shape_factor >= 0, "shape_factor", "a number >= 0");
+    if (!k.is_manual()) place = k.where("size");
     bool rises = !mach.empty(), positive = true;
     for (size_t i = 1; i < mach.size(); ++i) rises = rises && mach[i] > mach[i - 1];
     for (const double c : coefficient) positive = positive && c >= 0;

@@ -123,23 +123,23 @@ void Rigid::after_elements(const Elements& el, State& s) {
 }
 
 void Rigid::take_forces(State& s, double dt) {
-  for (size_t b = 0; b < air_.size(); ++b) add_drag(b, s, dt);
+  drag_work_ += parallel_sum(int64_t(air_.size()), [&](int64_t b) { return add_drag(size_t(b), s, dt); });
   parallel_for(int64_t(bodies_.size()), [&](int64_t i) { bodies_[size_t(i)].take_forces(s.m, s.f); });
 }
 
-void Rigid::add_drag(size_t b, State& s, double dt) {
+double Rigid::add_drag(size_t b, State& s, double dt) {
   const RigidBody& body = bodies_[b];
   Air& air = air_[b];
   if (body.is_stopped() || air.area == 0) {
     air.R = {};
-    return;
+    return 0;
   }
   Vec3 others;
   for (const NodeId n : body.nodes()) others += s.f[n];
   const Vec3 before = air.R;
   air.R = input_.drag->force(air.area, body.mass(), body.velocity() + 0.5 * dt / body.mass() * others, 0.5 * dt);
-  drag_work_ += 0.5 * dt * dot(before + air.R, body.velocity());
   for (const NodeId n : body.nodes()) s.f[n] += s.m[n] / body.mass() * air.R;
+  return 0.5 * dt * dot(before + air.R, body.velocity());
 }
 
 void Rigid::give_back(State& s) {

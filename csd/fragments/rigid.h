@@ -152,7 +152,7 @@ class Rigid {
   void keep_calm(Model& m, std::vector<Piece>& pieces);
   void freeze(Model& m, const std::vector<Piece>& pieces);
   Air air_of(const Model& m, const Piece& piece, const RigidBody& body) const;
-  void add_drag(size_t b, State& s, double dt);
+  double add_drag(size_t b, State& s, double dt);  ///< J, its work in this half step
   void release(Model& m);
   void renew_marks(Model& m);
   std::vector<Piece> pieces_of(Model& m, const std::vector<char>& is_label_wanted);

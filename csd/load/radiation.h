@@ -28,8 +28,10 @@ class Radiation {
   /// A window begins: its faces, and the largest h c/m of a node (h: its longest step; c: a quarter of the impedances
   /// around it). Beyond it impedances are taken smaller, so that the step stays stable: with forces by the last
   /// half-step's velocity that needs (h/h_stable)^2 + h c/(2 m) < 1. They are found anew when nodes were split, whose
-  /// children are lighter, and when steps become longer.
+  /// children are lighter, and when steps become longer, of all nodes or by renew().
   void begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest);
+  /// Steps of nodes have changed: the bound is taken anew.
+  void renew() { dt_ = 0; }
   /// Forces at s.v, added to f.
   void add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f);
   /// The last add() acts for the time h, at s.v, on nodes that are due; nodes may have been split since.

@@ -69,7 +69,7 @@ SCENES = {
     "starts": [
         ("fluid:bad_input", PAIR, 2, [ENDED + " before the programs had joined"], ["a positive density"]),
         ("solid:bad_input", [("fluid", 1), ("solid", 2)], 2, ["a positive density"], [ENDED]),
-        ("both:bad_input", PAIR, 2, ["a positive density|" + ENDED], ["a positive density|" + ENDED]),
+        ("both:bad_input", PAIR, 2, ["a positive density|" + ENDED], ["a positive density|" + ENDED], "a positive density"),  # whoever is first says why
         ("fluid:early_exit", PAIR, None, [ENDED], []),
         ("fluid:late", PAIR, 73, ["not joined within 2 s"], [""]),
     ],
@@ -93,7 +93,7 @@ def is_alive(pid):
         return False
 
 
-def run(scenario, programs, code, solid, fluid, folder):
+def run(scenario, programs, folder, code, solid, fluid, somebody=""):
     # to files, as mpirun may drop the last words of a job that it ends
     words = [[*f"-n {n} sh -c".split(), f"exec {FOLDER}/coupled_dummy {role} {scenario} >{folder}/{role}.$OMPI_COMM_WORLD_RANK 2>&1"] for role, n in programs]
     command = ["mpirun"] + [word for i, one in enumerate(words) for word in ([":"] if i else []) + one]
@@ -109,6 +109,8 @@ def run(scenario, programs, code, solid, fluid, folder):
     for role, wanted in ("solid", solid), ("fluid", fluid):
         said = "\n".join(line for line in text.splitlines() if line.startswith(f"[{role}]"))
         faults += [f"[{role}] does not say '{w}'" for w in wanted if not re.search(w, said)]
+    if not re.search(somebody, text):
+        faults.append(f"nobody says '{somebody}'")
     accidents = [float(t) for t in re.findall(r"accident at ([\d.]+)", text)]
     seconds = end - max(accidents) if accidents else 0
     waits = 2 if scenario in ("fluid:hang", "fluid:late") else 0  # the limit that has to pass first
@@ -123,7 +125,7 @@ for scenario, programs, *expected in SCENES[GROUP]:
     if ONLY and scenario != ONLY:
         continue
     with tempfile.TemporaryDirectory() as folder:
-        fault, seconds = run(scenario, programs, *expected, pathlib.Path(folder))
+        fault, seconds = run(scenario, programs, pathlib.Path(folder), *expected)
     ranks = " ".join(f"{role}:{n}" for role, n in programs)
     print(f"{'FAILED' if fault else 'ok':6} {scenario:20} {ranks:20} {seconds:6.2f} s  {fault}", flush=True)
     failures += bool(fault)
