@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <thread>
 
 #include "common/app/error.h"
 #include "common/app/log.h"
@@ -63,6 +65,7 @@ int run_fluid(const Comm& mine, Channel& channel, const CouplingCase& cs, const 
     if (window.index == accident_window && !scenario.accident.empty()) {
       if (scenario.is("rank1")) {
         if (mine.rank() == 1) mark_accident(), throw PhysicsError("rank 1 is out of sorts");
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the others could be done before it is heard
       } else if (scenario.is("own_bad_p")) {
         mark_accident();
         loads.p[2] = NAN;
