@@ -28,13 +28,16 @@ class AddedMass {
     double longest = std::numeric_limits<double>::infinity();
     if (!areal_mass_.empty() && !answered_ && share_ > 0) longest = first;
     if (!areal_mass_.empty() && !impedance_.empty() && share_ > 0) {
-      const bool same = surface.topo_version == topo_version_;
+      // faces keep their places as long as none is gone: new ones follow
+      const size_t old = face_id_.size();
+      const bool grown =
+          old <= surface.face_id.size() && std::equal(face_id_.begin(), face_id_.end(), surface.face_id.begin());
       std::unordered_map<int64_t, double> by_id;
-      for (size_t f = 0; !same && f < face_id_.size(); ++f) by_id[face_id_[f]] = impedance_[f];
+      for (size_t f = 0; !grown && f < old; ++f) by_id[face_id_[f]] = impedance_[f];
       for (size_t f = 0; f < areal_mass_.size(); ++f) {
         double Z = 0;
-        if (same)
-          Z = impedance_[f];
+        if (grown)
+          Z = f < old ? impedance_[f] : 0;
         else if (const auto known = by_id.find(surface.face_id[f]); known != by_id.end())
           Z = known->second;
         if (Z > 0) longest = std::min(longest, share_ * areal_mass_[f] / Z);

@@ -108,8 +108,8 @@ typedef struct fsi_load {
   double energy_covered, energy_uncovered; /* J */
   int64_t dry_faces;                       /* faces without fluid, which got p_ref */
   double dry_area;                         /* m^2 */
-  double dt_next; /* s, the step that the fluid would take next: under concurrent the next window
-                     is so long; 0: unknown, as long as this one */
+  double dt_next; /* s, the step that the fluid would take next: under concurrent the next window is so long; 0: unknown,
+                     then it is as long as the last window whose end the fluid chose, if there was one */
 } fsi_load;
 
 /* Not collective, needs no MPI. */

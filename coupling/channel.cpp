@@ -59,6 +59,7 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   bool open = true;
   std::vector<MPI_Request> started;
   std::unique_ptr<StandIn> stand_in;  // then there is no inter
+  std::unique_ptr<Bell> bell;         // between leaders
   std::unique_ptr<Lifeline> line;
   std::optional<Patience> cut;  // since when the line is
 
@@ -68,9 +69,11 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   /// said: the text is on the screen already
   [[noreturn]] void end(int code, const std::string& text, bool said = false);
   [[noreturn]] void end_with_peer(int source);
-  void look_for_failure();
+  /// may_be_there: false: no message has come
+  void look_for_failure(bool may_be_there = true);
   void become_active();
   void watch_silence() const;
+  bool is_anything_there() const;
   bool is_there(int tag) const;
   static void at_exit();
   [[noreturn]] static void at_terminate();
@@ -109,6 +112,7 @@ void Channel::State::end(int code, const std::string& text, bool said) {
     std::snprintf(fail.text, sizeof fail.text, "%s", text.c_str());
     MPI_Request request;
     MPI_Isend(&fail, sizeof fail, MPI_BYTE, 0, tag_fail, inter, &request);
+    if (bell) bell->ring();
     const Patience patience;
     int heard = 0;
     while (!heard && patience.seconds() < limits.acknowledge) {
@@ -146,17 +150,27 @@ void Channel::State::end_with_peer(int source) {
   _exit(code);
 }
 
-void Channel::State::look_for_failure() {
+void Channel::State::look_for_failure(bool may_be_there) {
   if (!open || ending || inter == MPI_COMM_NULL) return;
   int there = 0;
   MPI_Status status;
-  check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &there, &status), "MPI_Iprobe");
+  if (may_be_there) check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag_fail, inter, &there, &status), "MPI_Iprobe");
   if (there) end_with_peer(status.MPI_SOURCE);
   if (line && !cut && line->is_cut()) cut.emplace();
   if (cut && cut->seconds() > last_words) {
     inter = MPI_COMM_NULL;
     end(exit_killed, fmt::format("{} died without a word: its connection is gone", peer));
   }
+}
+
+/// A message of any kind: one look, where one for each tag would cost the other program's cores as many times as much.
+/// Open MPI looks first and fetches then: what came meanwhile is seen the second time.
+bool Channel::State::is_anything_there() const {
+  if (stand_in) return true;
+  int there = 0;
+  for (int look = 0; look < 2 && !there; ++look)
+    check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, inter, &there, MPI_STATUS_IGNORE), "MPI_Iprobe");
+  return there != 0;
 }
 
 /// A message with that tag has come.
@@ -198,6 +212,8 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   state_->role = role;
   state_->limits = limits;
   state_->line = std::move(line);
+  if (mine.root())
+    state_->bell = std::make_unique<Bell>(name_of(role), name_of(role == Role::solid ? Role::fluid : Role::solid));
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   state_->become_active();
   state_->watch_silence();
@@ -267,6 +283,7 @@ void Channel::send(int tag, const void* data, size_t bytes) {
 
 void Channel::flush() {
   const Patience patience;
+  if (state_->bell) state_->bell->ring();
   if (state_->line) {  // Open MPI 4.1 may not come back from MPI_Testall when the other end of a connection is gone
     watched = state_->line.get();
     watch_for(is_watched_cut, 1, exit_killed,
@@ -280,7 +297,7 @@ void Channel::flush() {
     state_->look_for_failure();
     if (patience.seconds() > state_->limits.silence)
       fail(exit_silence, fmt::format("{} has not taken a message for {:g} s", peer(), state_->limits.silence));
-    patience.rest();
+    patience.rest();  // the other one rings when it answers, not when it has taken all
   }
   state_->started.clear();
   watched = nullptr;
@@ -293,14 +310,15 @@ int Channel::wait(std::initializer_list<int> tags) {
   bool may_bye = false;
   for (const int tag : tags) may_bye |= tag == tag_bye;
   for (;;) {
+    const bool any = state_->is_anything_there();
     for (const int tag : tags)
-      if (state_->is_there(tag)) {
+      if (any && state_->is_there(tag)) {
         state_->waited += patience.seconds();
         return tag;
       }
-    state_->look_for_failure();
+    state_->look_for_failure(any);
     const char* word = word_of(*tags.begin());
-    if (!may_bye && state_->is_there(tag_bye)) {
+    if (any && !may_bye && state_->is_there(tag_bye)) {
       ByeBlock bye{};
       receive(tag_bye, "BYE", &bye, sizeof bye);
       bye.text[sizeof bye.text - 1] = 0;
@@ -314,7 +332,7 @@ int Channel::wait(std::initializer_list<int> tags) {
       say("waiting for {} from {} since {:.0f} s{}", word, peer(), waited, state_->place());
       next_line += state_->limits.heartbeat;
     }
-    patience.rest();
+    patience.rest(*state_->bell);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/app/timers.h"
+#include "common/parallel/loop.h"
 #include "coupling/handshake.h"
 
 namespace bw::coupling {
@@ -51,48 +52,58 @@ bool FluidSide::receive() {
 }
 
 void FluidSide::receive_surface() {
-  const size_t nodes = size_t(step_.n_nodes), faces = size_t(step_.n_faces);
   topology_changed_ = step_.flags & step_connectivity;
   surface_.topo_version = step_.topo_version;
-  surface_.x.resize(nodes);
-  surface_.v.resize(nodes);
-  if (channel_.leader()) {
-    channel_.receive(tag_x, "SURFACE: x", surface_.x.data(), nodes * sizeof(Vec3));
-    channel_.receive(tag_v, "SURFACE: v", surface_.v.data(), nodes * sizeof(Vec3));
-  }
+  if (channel_.leader()) receive_from_solid(size_t(step_.n_nodes), size_t(step_.n_faces));
   channel_.share(surface_.x);
   channel_.share(surface_.v);
   if (topology_changed_) {
-    std::vector<int64_t> ids(2 * nodes + faces);
-    std::vector<int32_t> values(2 * faces);
-    surface_.quads.resize(faces);
-    if (channel_.leader()) {
-      channel_.receive(tag_quads, "SURFACE: quads", surface_.quads.data(), faces * sizeof surface_.quads[0]);
-      channel_.receive(tag_ids, "SURFACE: ids", ids.data(), ids.size() * sizeof ids[0]);
-      channel_.receive(tag_faces, "SURFACE: body and flags", values.data(), values.size() * sizeof values[0]);
-    }
     channel_.share(surface_.quads);
-    channel_.share(ids);
-    channel_.share(values);
-    const auto parents = ids.begin() + int64_t(nodes), face_ids = parents + int64_t(nodes);
-    surface_.node_id.assign(ids.begin(), parents);
-    surface_.node_parent.assign(parents, face_ids);
-    surface_.face_id.assign(face_ids, ids.end());
-    const auto flags = values.begin() + int64_t(faces);
-    surface_.body.assign(values.begin(), flags);
-    surface_.flags.assign(flags, values.end());
-  }
-  if (channel_.leader()) {
-    if (const Verdict fault = topology_changed_ ? check_surface(surface_) : check_motion(surface_))
-      channel_.fail(fault->code, fault->text);
-    if (topology_changed_ && connectivity_hash(surface_) != step_.hash)
-      channel_.fail(exit_malformed, "SURFACE: the hash of the connectivity is not that of STEP");
+    for (std::vector<int64_t>* ids : {&surface_.node_id, &surface_.node_parent, &surface_.face_id})
+      channel_.share(*ids);
+    channel_.share(surface_.body);
+    channel_.share(surface_.flags);
   }
   known_.window = step_.window;
   known_.topo_version = step_.topo_version;
   known_.hash = step_.hash;
   known_.n_nodes = step_.n_nodes;
   known_.n_faces = step_.n_faces;
+}
+
+void FluidSide::receive_from_solid(size_t nodes, size_t faces) {
+  if (topology_changed_) {
+    surface_.quads.resize(faces), ids_.resize(2 * nodes + faces), values_.resize(2 * faces);
+    channel_.receive(tag_quads, "SURFACE: quads", surface_.quads.data(), faces * sizeof surface_.quads[0]);
+    channel_.receive(tag_ids, "SURFACE: ids", ids_.data(), ids_.size() * sizeof ids_[0]);
+    channel_.receive(tag_faces, "SURFACE: body and flags", values_.data(), values_.size() * sizeof values_[0]);
+  }
+  surface_.x.resize(nodes);
+  surface_.v.resize(nodes);
+  const auto receive_motion = [&] {
+    channel_.receive(tag_x, "SURFACE: x", surface_.x.data(), nodes * sizeof(Vec3));
+    channel_.receive(tag_v, "SURFACE: v", surface_.v.data(), nodes * sizeof(Vec3));
+  };
+  Verdict fault;
+  uint64_t hash = step_.hash;
+  const auto unpack_connectivity = [&] {
+    const auto parents = ids_.begin() + int64_t(nodes), face_ids = parents + int64_t(nodes);
+    surface_.node_id.assign(ids_.begin(), parents);
+    surface_.node_parent.assign(parents, face_ids);
+    surface_.face_id.assign(face_ids, ids_.end());
+    const auto flags = values_.begin() + int64_t(faces);
+    surface_.body.assign(values_.begin(), flags);
+    surface_.flags.assign(flags, values_.end());
+    fault = check_connectivity(surface_);
+    hash = connectivity_hash(surface_);
+  };
+  if (topology_changed_)
+    beside(int64_t(faces), receive_motion, unpack_connectivity);
+  else
+    receive_motion();
+  if (!fault) fault = check_motion(surface_);
+  if (fault) channel_.fail(fault->code, fault->text);
+  if (hash != step_.hash) channel_.fail(exit_malformed, "SURFACE: the hash of the connectivity is not that of STEP");
 }
 
 void FluidSide::kept(const std::string& file) {

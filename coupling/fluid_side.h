@@ -38,11 +38,14 @@ class FluidSide {
 
  private:
   void receive_surface();
+  void receive_from_solid(size_t nodes, size_t faces);
 
   Channel& channel_;
   double t_end_ = 0;
   Window window_;
   WetSurface surface_;
+  std::vector<int64_t> ids_;  // as on the wire
+  std::vector<int32_t> values_;
   StepBlock step_{};
   Known known_;
   bool topology_changed_ = false;

@@ -7,18 +7,19 @@
 #include <limits>
 
 #include "common/app/error.h"
-#include "common/math/sum.h"
+#include "common/parallel/exact_sums.h"
 
 namespace bw::coupling {
 namespace {
 
-/// Entries of the sorted list a that the sorted list b lacks.
-int64_t missing_in(const std::vector<int64_t>& a, const std::vector<int64_t>& b) {
-  int64_t count = 0;
-  auto at = b.begin();
-  for (const int64_t id : a) {
-    while (at != b.end() && *at < id) ++at;
-    count += at == b.end() || *at != id;
+/// Entries that two sorted lists of distinct ones have in common.
+int64_t common_entries(const std::vector<int64_t>& a, const std::vector<int64_t>& b) {
+  auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  int64_t count = x - a.begin();
+  while (x != a.end() && y != b.end()) {
+    const bool ahead = *y < *x, behind = *x < *y;
+    count += !ahead && !behind;
+    x += !ahead, y += !behind;
   }
   return count;
 }
@@ -35,15 +36,13 @@ SolidTotals& SolidTotals::operator+=(const SolidTotals& b) {
 
 SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_window, std::span<const Vec3> x_before,
                            std::span<const Vec3> x_after, double h) {
-  ExactSum3 impulses, moments;
-  ExactSum work;
-  for (size_t i = 0; i < f.size(); ++i) {
-    const Vec3 impulse = h * f[i];
-    impulses += impulse;
-    moments += cross(x_window[i], impulse);
-    work += dot(f[i], x_after[i] - x_before[i]);
-  }
-  return {.impulse = impulses.value(), .moment = moments.value(), .work = work.value(), .substeps = 1};
+  enum { impulse, moment = 3, work = 6, sums };
+  const auto sum = exact_sums<sums>(f.size(), [&](size_t i, std::array<double, sums>& s) {
+    add_at(s, impulse, f[i]), add_at(s, moment, cross(x_window[i], f[i]));
+    s[work] += dot(f[i], x_after[i] - x_before[i]);
+  });
+  return {
+      .impulse = h * vector_at(sum, impulse), .moment = h * vector_at(sum, moment), .work = sum[work], .substeps = 1};
 }
 
 void Ledger::open(const Window& window, const WetSurface& surface, const Loads& loads) {
@@ -58,43 +57,35 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   row_.t1 = loads.t1;
   row_.fluid = loads.totals;
   if (first_ || surface.topo_version != topo_version_) {
-    quads_ = surface.quads;
     std::vector<int64_t> face_id = surface.face_id;
     if (!std::is_sorted(face_id.begin(), face_id.end())) std::sort(face_id.begin(), face_id.end());
     if (!first_) {
-      row_.born = missing_in(face_id, face_id_);
-      row_.dead = missing_in(face_id_, face_id);
+      const int64_t kept = common_entries(face_id, face_id_);
+      row_.born = int64_t(face_id.size()) - kept;
+      row_.dead = int64_t(face_id_.size()) - kept;
     }
     face_id_ = std::move(face_id);
     topo_version_ = surface.topo_version;
     first_ = false;
   }
+  surface_ = &surface;
   const double dt = loads.t1 - window.t0;
-  area_.resize(quads_.size());
-  ExactSum3 area_sum, moment_sum;
-  ExactSum area, scale, moment_scale;
-  for (size_t begin = 0; begin < quads_.size(); begin += terms_at_once) {
-    Vec3 areas, moments;
-    double sizes = 0, forces = 0, levers = 0;
-    for (size_t f = begin; f < std::min(begin + terms_at_once, quads_.size()); ++f) {
-      area_[f] = area_vector(surface.x, quads_[f]);
-      const Vec3 centre = face_mean(surface.x, quads_[f]);
-      const double size = norm(area_[f]);
-      double force = std::abs(loads.p[f]) * size;
-      if (!loads.traction.empty()) force += norm(loads.traction[f]) * size;
-      areas += area_[f], moments += cross(centre, area_[f]);
-      sizes += size, forces += force, levers += force * norm(centre);
-    }
-    area_sum += areas, moment_sum += moments;
-    area += sizes, scale += forces * dt, moment_scale += levers * dt;
-  }
-  row_.area = area.value();
-  row_.impulse_scale = scale.value();
-  row_.moment_scale = moment_scale.value();
-  reference_impulse_ = (p_ref_ * dt) * area_sum.value();
-  reference_moment_ = (p_ref_ * dt) * moment_sum.value();
-  x_wall_.resize(surface.x.size());
-  for (size_t i = 0; i < x_wall_.size(); ++i) x_wall_[i] = surface.x[i] + dt * surface.v[i];
+  area_.resize(surface.quads.size());
+  enum { area, moment = 3, size = 6, scale, lever, sums };
+  const auto sum = exact_sums<sums>(area_.size(), [&](size_t f, std::array<double, sums>& s) {
+    area_[f] = area_vector(surface.x, surface.quads[f]);
+    const Vec3 centre = face_mean(surface.x, surface.quads[f]);
+    const double one = norm(area_[f]);
+    double force = std::abs(loads.p[f]) * one;
+    if (!loads.traction.empty()) force += norm(loads.traction[f]) * one;
+    add_at(s, area, area_[f]), add_at(s, moment, cross(centre, area_[f]));
+    s[size] += one, s[scale] += force, s[lever] += force * norm(centre);
+  });
+  row_.area = sum[size];
+  row_.impulse_scale = sum[scale] * dt;
+  row_.moment_scale = sum[lever] * dt;
+  reference_impulse_ = (p_ref_ * dt) * vector_at(sum, area);
+  reference_moment_ = (p_ref_ * dt) * vector_at(sum, moment);
 }
 
 void Ledger::add_to_sums(double tolerance) {
@@ -119,10 +110,14 @@ std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
   row_.work_fluid_sum += row_.work_fluid;
   row_.work_solid_sum += row_.solid.work;
   if (!x_end.empty()) {
-    BW_CHECK(x_end.size() == x_wall_.size());
-    std::vector<Vec3> gap(x_wall_.size());
-    for (size_t i = 0; i < gap.size(); ++i) gap[i] = x_end[i] - x_wall_[i];
-    for (size_t f = 0; f < quads_.size(); ++f) row_.volume_gap += dot(area_[f], face_mean(gap, quads_[f]));
+    const std::vector<Vec3>&x = surface_->x, &v = surface_->v;
+    BW_CHECK(x_end.size() == x.size());
+    std::vector<Vec3> gap(x.size());  // beyond where the announced velocity took the fluid's wall
+    const double dt = row_.t1 - row_.t0;
+    for (size_t i = 0; i < gap.size(); ++i) gap[i] = x_end[i] - (x[i] + dt * v[i]);
+    row_.volume_gap = exact_sums<1>(area_.size(), [&](size_t f, std::array<double, 1>& s) {
+      s[0] += dot(area_[f], face_mean(gap, surface_->quads[f]));
+    })[0];
   }
   const double defect = norm(row_.impulse_defect);
   // a fluid that counts its own step instead of t1 - t0 is off by the rounding of t1: no loss

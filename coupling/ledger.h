@@ -63,7 +63,8 @@ class Ledger {
   /// impulse_tolerance: of sum |P A| dt.
   explicit Ledger(double p_ref, double impulse_tolerance = 1e-12) : p_ref_(p_ref), tolerance_(impulse_tolerance) {}
 
-  /// The window's surface (x at t0; v as announced to the fluid) and the fluid's answer.
+  /// The window's surface (x at t0; v as announced to the fluid), to stay as it is until close(), and the fluid's
+  /// answer.
   void open(const Window& window, const WetSurface& surface, const Loads& loads);
   void add(const SolidTotals& substep) { row_.solid += substep; }
   /// Impulse [N s] and work [J] of forces inside the window that are no part of the fluid's answer.
@@ -77,7 +78,7 @@ class Ledger {
   void set_added_mass(double share) { row_.added_mass = share; }
   const LedgerRow& row() const { return row_; }
   const LedgerSums& sums() const { return sums_; }
-  size_t face_count() const { return quads_.size(); }
+  size_t face_count() const { return area_.size(); }
   /// In a checkpoint, between two windows.
   template <class A>
   void keep(A& a) {
@@ -91,10 +92,9 @@ class Ledger {
   double p_ref_, tolerance_;
   bool first_ = true;
   int64_t topo_version_ = -1;
-  std::vector<std::array<int32_t, 4>> quads_;
+  const WetSurface* surface_ = nullptr;        // of the window in hand
   std::vector<int64_t> face_id_;               // sorted
   std::vector<Vec3> area_;                     // [n_faces] m^2, at the window's start
-  std::vector<Vec3> x_wall_;                   // [n_nodes] m, where the announced velocity takes the fluid's wall
   Vec3 reference_impulse_, reference_moment_;  // of p_ref A dt
   LedgerRow row_;
   LedgerSums sums_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "common/app/error.h"
-#include "common/math/sum.h"
+#include "common/parallel/exact_sums.h"
 
 namespace bw::coupling {
 
@@ -12,11 +12,13 @@ std::vector<Vec3> face_forces(const WetSurface& surface, const Loads& loads, dou
   const size_t n = surface.quads.size();
   BW_CHECK(loads.p.size() == n && (loads.traction.empty() || loads.traction.size() == n));
   std::vector<Vec3> force(n);
-  for (size_t f = 0; f < n; ++f) {
+  const auto force_on = [&](int64_t i) {
+    const size_t f = size_t(i);
     const Vec3 area = area_vector(surface.x, surface.quads[f]);
     force[f] = -(loads.p[f] - p_ref) * area;
     if (!loads.traction.empty()) force[f] += norm(area) * loads.traction[f];
-  }
+  };
+  parallel_for(int64_t(n), force_on, worth_waking);
   return force;
 }
 
@@ -37,27 +39,20 @@ FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span
   BW_CHECK(loads.p.size() == surface.quads.size() && v_wall.size() == surface.x.size());
   const double dt =
       loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
-  ExactSum3 impulses, moments;
-  ExactSum work, swept;
-  for (size_t begin = 0; begin < loads.p.size(); begin += terms_at_once) {
-    Vec3 force, moment;
-    double power = 0, rate = 0;
-    for (size_t f = begin; f < std::min(begin + terms_at_once, loads.p.size()); ++f) {
-      const auto& q = surface.quads[f];
-      const Vec3 area = area_vector(surface.x, q), v = face_mean(v_wall, q);
-      Vec3 one = -loads.p[f] * area;
-      if (!loads.traction.empty()) one += norm(area) * loads.traction[f];
-      force += one, moment += cross(face_mean(surface.x, q), one);
-      power += dot(one, v), rate += dot(area, v);
-    }
-    impulses += dt * force, moments += dt * moment;
-    work += power * dt, swept += rate * dt;
-  }
+  enum { impulse, moment = 3, work = 6, swept, sums };
+  const auto sum = exact_sums<sums>(loads.p.size(), [&](size_t f, std::array<double, sums>& s) {
+    const auto& q = surface.quads[f];
+    const Vec3 area = area_vector(surface.x, q), v = face_mean(v_wall, q);
+    Vec3 force = -loads.p[f] * area;
+    if (!loads.traction.empty()) force += norm(area) * loads.traction[f];
+    add_at(s, impulse, force), add_at(s, moment, cross(face_mean(surface.x, q), force));
+    s[work] += dot(force, v), s[swept] += dot(area, v);
+  });
   FluidTotals totals;
-  totals.impulse = impulses.value();
-  totals.moment = moments.value();
-  totals.work = work.value();
-  totals.swept = swept.value();
+  totals.impulse = dt * vector_at(sum, impulse);
+  totals.moment = dt * vector_at(sum, moment);
+  totals.work = sum[work] * dt;
+  totals.swept = sum[swept] * dt;
   return totals;
 }
 

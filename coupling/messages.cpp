@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/parallel/exact_sums.h"
 #include "coupling/channel.h"
 
 namespace bw::coupling {
@@ -33,29 +34,36 @@ bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) 
 
 /// First entry that is not finite.
 Verdict check_finite(const char* name, const char* what, const std::vector<Vec3>& values) {
+  const auto add = [&](size_t i, std::array<double, 1>& s) { s[0] += 0 * (values[i].x + values[i].y + values[i].z); };
+  if (exact_sums<1>(values.size(), add)[0] == 0) return {};  // else it is looked for
   for (size_t i = 0; i < values.size(); ++i)
     if (!is_finite(values[i]))
       return Fault{exit_bad_value,
                    fmt::format("{} of {} {} is ({}, {}, {})", name, what, i, values[i].x, values[i].y, values[i].z)};
   return {};
 }
-Verdict check_distinct(const char* name, std::vector<int64_t> ids) {
-  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
-  const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end()) return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, *twice)};
+Verdict check_distinct(const char* name, const std::vector<int64_t>& ids) {
+  const auto not_below = [](int64_t a, int64_t b) { return a >= b; };
+  if (std::adjacent_find(ids.begin(), ids.end(), not_below) == ids.end()) return {};  // sorted already
+  std::vector<int64_t> sorted = ids;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, *twice)};
   return {};
 }
 
 /// FNV-1a on words of 64 bits, the last one filled up with zeros
 template <class T>
 uint64_t hash(uint64_t h, const std::vector<T>& a) {
-  const size_t bytes = a.size() * sizeof(T);
+  const size_t bytes = a.size() * sizeof(T), whole = bytes - bytes % 8;
   const auto* data = reinterpret_cast<const char*>(a.data());
-  for (size_t i = 0; i < bytes; i += 8) {
+  const auto take = [&](size_t at, size_t count) {
     uint64_t word = 0;
-    std::memcpy(&word, data + i, std::min<size_t>(8, bytes - i));
+    std::memcpy(&word, data + at, count);
     h = (h ^ word) * 1099511628211ull;
-  }
+  };
+  for (size_t i = 0; i < whole; i += 8) take(i, 8);
+  if (whole < bytes) take(whole, bytes - whole);
   return h;
 }
 
@@ -193,7 +201,7 @@ Verdict check_motion(const WetSurface& surface) {
   return check_finite("SURFACE: v", "node", surface.v);
 }
 
-Verdict check_surface(const WetSurface& surface) {
+Verdict check_connectivity(const WetSurface& surface) {
   const size_t nodes = surface.x.size(), faces = surface.quads.size();
   if (surface.v.size() != nodes || surface.node_id.size() != nodes || surface.node_parent.size() != nodes ||
       surface.face_id.size() != faces || surface.body.size() != faces || surface.flags.size() != faces)
@@ -203,7 +211,11 @@ Verdict check_surface(const WetSurface& surface) {
       if (node < 0 || size_t(node) >= nodes)
         return Fault{exit_bad_value, fmt::format("SURFACE: face {} names node {} of {}", f, node, nodes)};
   if (auto fault = check_distinct("node_id", surface.node_id)) return fault;
-  if (auto fault = check_distinct("face_id", surface.face_id)) return fault;
+  return check_distinct("face_id", surface.face_id);
+}
+
+Verdict check_surface(const WetSurface& surface) {
+  if (auto fault = check_connectivity(surface)) return fault;
   return check_motion(surface);
 }
 

@@ -143,6 +143,8 @@ struct Known {
 Verdict check_step(const StepBlock& step, const Known& known);
 /// Indices within range, ids distinct, finite numbers: names array and entry.
 Verdict check_surface(const WetSurface& surface);
+/// The part of it that changes with the topology only.
+Verdict check_connectivity(const WetSurface& surface);
 /// The part of it that changes in every window: x and v, finite.
 Verdict check_motion(const WetSurface& surface);
 uint64_t connectivity_hash(const WetSurface& surface);

@@ -15,8 +15,8 @@ namespace bw::coupling {
 class NodePlaces {
  public:
   NodePlaces() = default;
-  explicit NodePlaces(const WetSurface& surface) {
-    for (size_t i = 0; i < surface.node_id.size(); ++i) sorted_.push_back({surface.node_id[i], int64_t(i)});
+  explicit NodePlaces(const WetSurface& surface) : sorted_(surface.node_id.size()) {
+    for (size_t i = 0; i < sorted_.size(); ++i) sorted_[i] = {surface.node_id[i], int64_t(i)};
     if (!std::is_sorted(sorted_.begin(), sorted_.end())) std::sort(sorted_.begin(), sorted_.end());
   }
   /// In a checkpoint.

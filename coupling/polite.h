@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/parallel/mpi.h"
+#include "coupling/bell.h"
 
 namespace bw::coupling {
 
@@ -16,6 +17,12 @@ class Patience {
     const double waited = seconds();
     if (waited < 50e-6) return;
     std::this_thread::sleep_for(std::chrono::duration<double>(std::clamp(waited / 64, 50e-6, 2e-3)));
+  }
+  /// The same, until the bell rings: who knows that it will may sleep soundly.
+  void rest(Bell& bell) const {
+    const double waited = seconds();
+    if (waited < 50e-6) return;
+    bell.wait(bell.is_known() ? 5e-3 : std::clamp(waited / 64, 50e-6, 2e-3));
   }
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 

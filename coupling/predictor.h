@@ -3,8 +3,10 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "common/parallel/loop.h"
 #include "coupling/case.h"
 #include "coupling/node_places.h"
 
@@ -17,23 +19,18 @@ class WallPredictor {
  public:
   explicit WallPredictor(Scheme scheme) : scheme_(scheme) {}
 
-  /// Velocities [n_nodes] of the walls for a window expected to last dt_next; surface.v is v^n.
-  std::vector<Vec3> predict(const WetSurface& surface, double dt_next) {
-    std::vector<Vec3> v = surface.v;
+  /// surface.v, v^n, becomes the velocity [n_nodes] of the walls for a window expected to last dt_next.
+  void predict(WetSurface& surface, double dt_next) {
+    if (scheme_ == Scheme::box1) return;
+    if (surface.topo_version != topo_version_ || surface.v.size() != v_last_.size()) renew(surface);
     // a sliver of a window before an output time must not blow the difference up
     const double half_ratio = dt_last_ > 0 ? 0.5 * std::clamp(dt_next / dt_last_, 0.0, 2.0) : 0;
-    const bool same = surface.topo_version == topo_version_ && v.size() == v_last_.size();
-    if (scheme_ != Scheme::box1 && half_ratio > 0) {
-      const NodePlaces now = same ? NodePlaces{} : NodePlaces(surface);
-      for (size_t i = 0; i < v.size(); ++i) {
-        const int64_t old = same ? int64_t(i) : places_.find_or_ancestor(surface, i, now);
-        if (old >= 0) v[i] += half_ratio * (surface.v[i] - v_last_[size_t(old)]);
-      }
-    }
-    if (!same) places_ = NodePlaces(surface);
-    topo_version_ = surface.topo_version;
-    v_last_ = surface.v;
-    return v;
+    const auto predict_node = [&](int64_t i) {
+      const Vec3 now = surface.v[size_t(i)];
+      surface.v[size_t(i)] += half_ratio * (now - v_last_[size_t(i)]);
+      v_last_[size_t(i)] = now;
+    };
+    parallel_for(int64_t(v_last_.size()), predict_node, worth_waking);
   }
 
   /// The window that started with the surface of the last predict() lasted dt.
@@ -47,10 +44,21 @@ class WallPredictor {
   }
 
  private:
+  /// The last velocities of its nodes.
+  void renew(const WetSurface& surface) {
+    NodePlaces now(surface);
+    std::vector<Vec3> last = surface.v;
+    for (size_t i = 0; i < last.size(); ++i)
+      if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0) last[i] = v_last_[size_t(old)];
+    v_last_ = std::move(last);
+    places_ = std::move(now);
+    topo_version_ = surface.topo_version;
+  }
+
   Scheme scheme_;
   int64_t topo_version_ = -1;
   NodePlaces places_;         // of the nodes of v_last_
-  std::vector<Vec3> v_last_;  // of the last predict()
+  std::vector<Vec3> v_last_;  // v^n of the last predict()
   double dt_last_ = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include "common/app/log.h"
 #include "common/app/timers.h"
+#include "common/parallel/loop.h"
 #include "coupling/handshake.h"
 #include "coupling/ledger_report.h"
 #include "coupling/ledger_table.h"
@@ -45,7 +46,15 @@ void SolidSide::fix(Window& window) const {
   if (parts > 1) window.t1_max = window.t0 + room / parts;  // no sliver is left before an output time
 }
 
-void SolidSide::send(Window window, const WetSurface& surface, std::span<const double> areal_mass) {
+void SolidSide::gather_connectivity(const WetSurface& surface) {
+  ids_ = surface.node_id;
+  ids_.insert(ids_.end(), surface.node_parent.begin(), surface.node_parent.end());
+  ids_.insert(ids_.end(), surface.face_id.begin(), surface.face_id.end());
+  faces_ = surface.body;
+  faces_.insert(faces_.end(), surface.flags.begin(), surface.flags.end());
+}
+
+void SolidSide::send(Window window, WetSurface& surface, std::span<const double> areal_mass) {
   const Timed timed("send surface");
   window.index = next_window_++;
   window.checkpoint = asks_checkpoint_;
@@ -56,23 +65,27 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
   window.t1_max =
       std::min(window.t1_max, window.t0 + added_mass_.longest_window(surface, areal_mass, window.dt_stable));
   window_ = window;
+  sent_ = &surface;
   channel_.set_place(window.index, window.t0);
   if (!channel_.leader()) return;
 
-  const bool renewed = !is_known_ || surface.topo_version != sent_.topo_version;
-  is_known_ = true;
-  if (renewed)
-    sent_ = surface;
-  else
-    sent_.x = surface.x;
+  const bool renewed = surface.topo_version != topo_version_;
+  topo_version_ = surface.topo_version;
   const double room = window.t1_max - window.t0;
-  sent_.v = predictor_.predict(surface, dt_usual_ > 0 && !window.fixed ? std::min(dt_usual_, room) : room);
-  if (case_.kind() == Scheme::concurrent) expected_.begin(window, sent_);
+  predictor_.predict(surface, dt_usual_ > 0 && !window.fixed ? std::min(dt_usual_, room) : room);
+  if (case_.kind() == Scheme::concurrent) expected_.begin(window, surface);
 
-  const uint64_t hash = step_.hash;
+  uint64_t hash = step_.hash;
+  Verdict fault;
+  if (renewed)
+    beside(
+        int64_t(surface.quads.size()), [&] { gather_connectivity(surface), fault = check_connectivity(surface); },
+        [&] { hash = connectivity_hash(surface); });
+  if (!fault) fault = check_motion(surface);
+  if (fault) channel_.fail(fault->code, fault->text);
   const LedgerRow books = ledger_.row();
-  step_ = pack(window, sent_);
-  step_.hash = renewed ? connectivity_hash(sent_) : hash;
+  step_ = pack(window, surface);
+  step_.hash = hash;
   if (renewed) step_.flags |= step_connectivity;
   step_.born = books.born;
   step_.dead = books.dead;
@@ -83,22 +96,15 @@ void SolidSide::send(Window window, const WetSurface& surface, std::span<const d
   step_.work = books.solid.work;
   step_.volume_gap = books.volume_gap;
 
-  if (const Verdict fault = renewed ? check_surface(sent_) : check_motion(sent_))
-    channel_.fail(fault->code, fault->text);
   if (recorder_) {
     const Timed record("record");
-    recorder_->asked(step_, sent_);
+    recorder_->asked(step_, surface);
   }
   channel_.send(tag_step, &step_, sizeof step_);
-  channel_.send(tag_x, std::span<const Vec3>(sent_.x));
-  channel_.send(tag_v, std::span<const Vec3>(sent_.v));
+  channel_.send(tag_x, std::span<const Vec3>(surface.x));
+  channel_.send(tag_v, std::span<const Vec3>(surface.v));
   if (renewed) {
-    ids_ = sent_.node_id;
-    ids_.insert(ids_.end(), sent_.node_parent.begin(), sent_.node_parent.end());
-    ids_.insert(ids_.end(), sent_.face_id.begin(), sent_.face_id.end());
-    faces_ = sent_.body;
-    faces_.insert(faces_.end(), sent_.flags.begin(), sent_.flags.end());
-    channel_.send(tag_quads, std::span<const std::array<int32_t, 4>>(sent_.quads));
+    channel_.send(tag_quads, std::span<const std::array<int32_t, 4>>(surface.quads));
     channel_.send(tag_ids, std::span<const int64_t>(ids_));
     channel_.send(tag_faces, std::span<const int32_t>(faces_));
   }
@@ -112,11 +118,11 @@ std::optional<Loads> SolidSide::expect() {
   channel_.share(&known, sizeof known);
   if (!known) return {};
   channel_.share(&window_.t1_max, sizeof window_.t1_max);  // what light faces stand the leader knows
-  if (channel_.leader()) loads = expected_.expect(sent_, window_.t1_max);
+  if (channel_.leader()) loads = expected_.expect(*sent_, window_.t1_max);
   loads.t1 = window_.t1_max;
   channel_.share(loads.p);
   channel_.share(loads.impedance);
-  channel_.share(sent_.v);
+  channel_.share(sent_->v);
   return loads;
 }
 
@@ -145,7 +151,7 @@ const Loads& SolidSide::receive() {
       channel_.receive(tag_traction, "LOAD: traction", loads_.traction.data(), n * sizeof(Vec3));
     if (load.flags & load_impedance)
       channel_.receive(tag_impedance, "LOAD: impedance", loads_.impedance.data(), n * sizeof(double));
-    if (const Verdict fault = check_values(loads_, sent_)) channel_.fail(fault->code, fault->text);
+    if (const Verdict fault = check_values(loads_, *sent_)) channel_.fail(fault->code, fault->text);
     waited_ = channel_.seconds_waited() - waited_before;
     if (recorder_) {
       const Timed record("record");
@@ -156,7 +162,7 @@ const Loads& SolidSide::receive() {
   channel_.share(loads_.p);
   channel_.share(loads_.traction);
   channel_.share(loads_.impedance);
-  if (!loads_.impedance.empty()) channel_.share(sent_.v);
+  if (!loads_.impedance.empty()) channel_.share(sent_->v);
   asks_checkpoint_ = false;
   loads_.t1 = load.t1;
   loads_.checkpoint = load.flags & load_checkpoint;
@@ -169,8 +175,8 @@ const Loads& SolidSide::receive() {
   if (loads_.t1 < window_.t1_max) dt_usual_ = dt;  // one that the limit cut short says nothing about the next
   if (channel_.leader()) {
     predictor_.window_lasted(dt);
-    if (case_.kind() == Scheme::concurrent) expected_.answered(sent_, loads_);
-    ledger_.open(window_, sent_, loads_);
+    if (case_.kind() == Scheme::concurrent) expected_.answered(*sent_, loads_);
+    ledger_.open(window_, *sent_, loads_);
     ledger_.set_added_mass(added_mass_.answer(loads_.impedance, dt));
   }
   return loads_;

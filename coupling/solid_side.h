@@ -39,8 +39,9 @@ class SolidSide {
 
   /// Window.index and mean_pressure are set here, t1_max is clipped to t_end(), window_max and what light faces stand
   /// (areal_mass [n_faces] kg/m^2: of the part of the solid that moves with the face in one window, its element; empty:
-  /// unknown); surface.v is v^n, what travels is the predicted velocity of the walls.
-  void send(Window window, const WetSurface& surface, std::span<const double> areal_mass = {});
+  /// unknown). The leader's surface.v is v^n, and afterwards what was announced, the predicted velocity of the walls.
+  /// The surface must stay as it is until end_window().
+  void send(Window window, WetSurface& surface, std::span<const double> areal_mass = {});
   /// Under concurrent, while the fluid computes its answer: the loads to go on with, to the window's end, which is
   /// fixed; receive() is due before end_window(). Nothing under other schemes, and before the first answer: receive()
   /// next. All ranks.
@@ -49,7 +50,7 @@ class SolidSide {
   const Loads& receive();
   /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after expect or
   /// receive, if the fluid told impedances.
-  const std::vector<Vec3>& announced() const { return sent_.v; }
+  const std::vector<Vec3>& announced() const { return sent_->v; }
   /// The fluid can keep its state.
   bool fluid_keeps() const { return features_ & feature_checkpoint; }
   /// The fluid asked for a checkpoint in its last answer.
@@ -91,18 +92,20 @@ class SolidSide {
 
  private:
   void resume_table(int64_t rows);
+  void gather_connectivity(const WetSurface& surface);
   /// The window's end, where the solid leads or computes beside the fluid.
   void fix(Window& window) const;
 
   Channel& channel_;
   CouplingCase case_;
   double t_end_ = 0;
-  uint64_t features_ = 0;                            // of the fluid
-  bool asks_checkpoint_ = false, is_known_ = false;  // is_known_: sent_ was sent
+  uint64_t features_ = 0;  // of the fluid
+  bool asks_checkpoint_ = false;
   std::string fluid_file_, history_path_;
   Window window_;
   int64_t next_window_ = 0;
-  WetSurface sent_;  // as on the wire: v is predicted
+  WetSurface* sent_ = nullptr;           // the caller's, of the window in hand
+  std::optional<int64_t> topo_version_;  // of the connectivity that the fluid knows
   StepBlock step_{};
   std::vector<int64_t> ids_;  // as on the wire, until they are under way
   std::vector<int32_t> faces_;

@@ -13,6 +13,7 @@
 #include "common/app/version.h"
 #include "common/io/file.h"
 #include "common/math/sum.h"
+#include "common/parallel/loop.h"
 #include "coupling/loads.h"
 #include "csd/energy.h"
 #include "csd/step.h"
@@ -35,15 +36,14 @@ coupling::Hello hello_of(const Case& cs, const Model& m, const coupling::WetSurf
 
 /// Mass behind each wet face, that of its element, per area [kg/m^2].
 std::vector<double> areal_mass(const Model& m, const Surface& surface) {
-  std::vector<double> result;
-  result.reserve(surface.faces().size());
-  for (size_t f = 0; f < surface.faces().size(); ++f) {
-    const ElemId e = surface.faces()[f].elem;
+  std::vector<double> result(surface.faces().size());
+  parallel_for(int64_t(result.size()), [&](int64_t f) {
+    const ElemId e = surface.faces()[size_t(f)].elem;
     const double density = std::visit([](const auto& material) { return material.density; },
                                       m.physics.elements.materials[size_t(m.mesh.body[e])]);
-    result.push_back(density * m.state.V0[m.physics.elements.blocks.slot[e]] /
-                     norm(coupling::area_vector(surface.wet().x, surface.wet().quads[f])));
-  }
+    result[size_t(f)] = density * m.state.V0[m.physics.elements.blocks.slot[e]] /
+                        norm(coupling::area_vector(surface.wet().x, surface.wet().quads[size_t(f)]));
+  });
   return result;
 }
 
@@ -77,9 +77,8 @@ Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m, const Pai
 }
 
 std::vector<Vec3> Coupled::positions(const Model& m) const {
-  std::vector<Vec3> x;
-  x.reserve(nodes_.size());
-  for (NodeId n : nodes_) x.push_back(m.state.x[n]);
+  std::vector<Vec3> x(nodes_.size());
+  parallel_for(int64_t(x.size()), [&](int64_t i) { x[size_t(i)] = m.state.x[nodes_[size_t(i)]]; });
   return x;
 }
 
@@ -172,15 +171,17 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
   if (case_.coupling.kind() != coupling::Scheme::box1)
     for (size_t i = 0; i < radiation->impulses().size(); ++i) back[i] = radiation->impulses()[i] / -dt;
   std::vector<RadiatingFace> faces(n);
-  for (size_t i = 0; i < n; ++i) {
+  const auto radiate = [&](int64_t f) {
+    const size_t i = size_t(f);
     const auto& quad = surface_.wet().quads[i];
     const Vec3 area = coupling::area_vector(surface_.wet().x, quad);
     const double size = norm(area);
     faces[i].face = surface_.faces()[i];
-    if (!(size > 0) || loads.impedance.empty()) continue;
+    if (!(size > 0) || loads.impedance.empty()) return;
     faces[i] = {surface_.faces()[i], area / size, loads.impedance[i] * size, 0};
     faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);
-  }
+  };
+  parallel_for(int64_t(n), radiate, worth_waking);
   const double share = step_share(case_.solid.time_step, dt_stable);
   radiation->begin(m.mesh, m.state, std::move(faces), 1.8 * std::fmax(0, 1 - share * share));
   return back;

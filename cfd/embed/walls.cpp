@@ -23,6 +23,7 @@ size_t Walls::block_number(const Index3& c) const {
 
 void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
   changes_ = {};
+  if (conservative()) sent_x_ = surface.x;
   const bool same = placed_ && surface.topo_version == surface_.topo_version && x.size() == surface_.x.size();
   if (same && x == surface_.x) {
     surface_.v = v;
@@ -173,8 +174,10 @@ coupling::Loads Walls::loads() {
       r.impedance[f] *= open;
       lip_force_ += (r.p[f] - full) * area;
     }
-    if (const double size = norm(area); conservative() && size > 0 && (wet[f] || face_forces_.met[f]))
-      r.traction[f] = (face_forces_.force[f] + (r.p[f] - p_ref_) * area) / size;
+    if (!conservative() || !(wet[f] || face_forces_.met[f])) continue;
+    const Vec3 sent = coupling::area_vector(sent_x_, surface_.quads[f]);
+    if (const double size = norm(sent); size > 0)
+      r.traction[f] = (face_forces_.force[f] + (r.p[f] - p_ref_) * sent) / size;
   }
   return r;
 }

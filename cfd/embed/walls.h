@@ -87,8 +87,8 @@ class Walls {
   /// top of p_ref. A lip carries p_ref until its crack is wide enough to see fluid; then its pressure goes to the
   /// fluid's while the crack opens by half a cell more.
   coupling::Loads loads();
-  /// Do faces carry what the cut links across them gave? loads() then adds the traction that makes it so; lips are not
-  /// blended.
+  /// Do faces carry what the cut links across them gave? loads() then adds the traction that makes it so on the areas of
+  /// the surface that was given to begin(); lips are not blended.
   bool conservative() const { return options_.conservative; }
   WallTreatment treatment() const { return options_.treatment; }
   /// Before loads(): of the window of dt.
@@ -117,8 +117,9 @@ class Walls {
   WallOptions options_;
   FaceForces face_forces_;
   bool placed_ = false, probes_current_ = false;
-  coupling::WetSurface surface_;
-  std::vector<Vec3> v_last_;  ///< of the last window, by node of surface_; empty: unknown or not wanted
+  coupling::WetSurface surface_;  ///< with the walls' own x
+  std::vector<Vec3> sent_x_;      ///< of the surface as given; conservative loads only
+  std::vector<Vec3> v_last_;      ///< of the last window, by node of surface_; empty: unknown or not wanted
   double dt_ = 0, dt_last_ = 0;
   coupling::NodePlaces places_;
   Lips lips_;

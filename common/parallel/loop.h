@@ -13,10 +13,13 @@ namespace bw {
 inline int thread_count() { return omp_get_max_threads(); }
 inline void set_thread_count(int threads) { omp_set_num_threads(threads); }
 
-/// body(i) for i in [0, n), iterations independent.
+/// Light items from which on it pays to wake threads that have gone to sleep, as they do while a program waits.
+constexpr int64_t worth_waking = 65536;
+
+/// body(i) for i in [0, n), iterations independent; on all threads if there are more than `alone`.
 template <class Body>
-void parallel_for(int64_t n, const Body& body) {
-#pragma omp parallel for schedule(static) if (n > 256)
+void parallel_for(int64_t n, const Body& body, int64_t alone = 256) {
+#pragma omp parallel for schedule(static) if (n > alone)
   for (int64_t i = 0; i < n; ++i) body(i);
 }
 
@@ -33,6 +36,16 @@ void parallel_for_dynamic(int64_t n, std::vector<Space>& space, const Body& body
   if (int(space.size()) < thread_count()) space.resize(size_t(thread_count()));
 #pragma omp parallel for schedule(dynamic, 1) if (n > 1)
   for (int64_t i = 0; i < n; ++i) body(i, space[size_t(omp_get_thread_num())]);
+}
+
+/// main on this thread, which alone may call MPI, while other runs on another one, if there is one; for n light items.
+template <class Main, class Other>
+void beside(int64_t n, const Main& main, const Other& other) {
+#pragma omp parallel if (n > worth_waking)
+  {
+    if (omp_get_thread_num() == omp_get_num_threads() - 1) other();
+    if (omp_get_thread_num() == 0) main();
+  }
 }
 
 /// Fold of value(i) over [0, n) with combine(a, b), bit-equal for any number of threads.

@@ -106,16 +106,18 @@ int Solid::run() {
     const Loads& loads = side.receive();
     look(window, loads);
     record.write(reinterpret_cast<const char*>(loads.p.data()), std::streamsize(8 * loads.p.size()));
-    const std::vector<Vec3> force = nodal_loads(wet, loads, cs.reference_pressure), x_window = wet.x;
+    const std::vector<Vec3> force = nodal_loads(wet, loads, cs.reference_pressure);
+    std::vector<Vec3> x = wet.x;
     EqualSubsteps sub(t, loads.t1);
     while (!sub.done()) {
       const double h = sub.next(0.3 * dt);
-      const std::vector<Vec3> before = wet.x;
-      for (size_t i = 0; i < wet.x.size(); ++i) wet.x[i] += h * wet.v[i];
-      side.add(substep_totals(force, x_window, before, wet.x, h));
+      const std::vector<Vec3> before = x;
+      for (size_t i = 0; i < x.size(); ++i) x[i] += h * wet.v[i];
+      side.add(substep_totals(force, wet.x, before, x, h));
       t = sub.advance();
     }
-    side.end_window(wet.x);
+    side.end_window(x);
+    wet.x = x;
     if (window > 1000 * o.windows) found_wanting(fmt::format("{} windows for {:g} s: the program creeps", window, t));
   }
   side.finish();

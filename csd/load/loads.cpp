@@ -65,19 +65,23 @@ double Loads::power(const State& s) const {
 
 void Loads::spread_given(const Mesh& mesh) {
   given_f_.resize(f_.size());
-  parallel_for(int64_t(nodes_.size()), [&](int64_t i) { given_f_[nodes_[size_t(i)]] = {}; });
+  for (const NodeId n : nodes_) given_f_[n] = {};
   for (const auto& [face, f] : given_)
     for (NodeId n : mesh.nodes_of(face)) given_f_[n] += 0.25 * f;
   is_spread_ = true;
 }
 
 void Loads::replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s) {
-  parallel_for(int64_t(nodes_.size()), [&](int64_t i) { s.f[nodes_[size_t(i)]] -= f_[nodes_[size_t(i)]]; });
+  const auto take_off = [&](int64_t i) { s.f[nodes_[size_t(i)]] -= f_[nodes_[size_t(i)]]; };
+  parallel_for(int64_t(nodes_.size()), take_off, worth_waking);
+  const bool same_faces = std::equal(given_.begin(), given_.end(), forces.begin(), forces.end(),
+                                     [](const auto& a, const auto& b) { return a.first == b.first; });
   given_ = std::move(forces);
   std::vector<NodeId> nodes;
-  for (const auto& [face, f] : given_)
-    for (const NodeId n : mesh.nodes_of(face))
-      if (!is_loaded_[n]) nodes.push_back(n);
+  if (!same_faces)
+    for (const auto& [face, f] : given_)
+      for (const NodeId n : mesh.nodes_of(face))
+        if (!is_loaded_[n]) nodes.push_back(n);
   follow(nodes);
   is_spread_ = false;
   add(mesh, s.t, s);

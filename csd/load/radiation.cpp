@@ -44,17 +44,19 @@ void Radiation::bound(const State& s) {
   dt_ = s.dt_stable;
   const double h = dt_ / s.local.shortest();
   std::vector<double> share(nodes_.size());
-  parallel_for(int64_t(nodes_.size()), [&](int64_t k) {
+  const auto find_share = [&](int64_t k) {
     const NodeId n = nodes_[size_t(k)];
     double sum = 0;
     for (const int32_t i : around_[k]) sum += 0.25 * faces_[size_t(i)].impedance;
     share[size_t(k)] = sum > 0 ? largest_ * s.m[n] / (h * s.local.steps_of(n) * sum) : 1;
-  });
-  parallel_for(int64_t(faces_.size()), [&](int64_t i) {
+  };
+  const auto find_acting = [&](int64_t i) {
     double least = 1;
     for (const int32_t k : corner_[size_t(i)]) least = std::min(least, share[size_t(k)]);
     acting_[size_t(i)] = least * faces_[size_t(i)].impedance;
-  });
+  };
+  parallel_for(int64_t(nodes_.size()), find_share, worth_waking);  // a window begins: threads have gone to sleep
+  parallel_for(int64_t(faces_.size()), find_acting, worth_waking);
 }
 
 void Radiation::add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f) {

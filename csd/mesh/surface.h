@@ -25,6 +25,7 @@ class Surface {
   /// Quads with normals out of the solid; face_id = elem_gid * 6 + side, node_id = node_gid. Lips follow the original
   /// faces in the order of their birth and carry face_lip.
   const coupling::WetSurface& wet() const { return wet_; }
+  coupling::WetSurface& wet() { return wet_; }  ///< v is the caller's until the next update()
   const std::vector<NodeId>& nodes() const { return nodes_; }  ///< mesh node of each wet node, ascending
   const std::vector<Face>& faces() const { return faces_; }    ///< mesh face of each quad
   /// Adds forces on the wet nodes [N] (coupling::nodal_loads) to the mesh's nodes.

@@ -2,11 +2,30 @@
 """What tests that start MPI share: mpirun's environment and a pair that is started and looked at."""
 import csv
 import os
+import pathlib
+import shutil
 import subprocess
 
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                    OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_fcoll="dynamic_gen2",
                    OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1", BREAKWAVE_PROGRESS="off")
+
+
+failed = False
+
+
+def report(name, fault):
+    """One line of a test: fault is empty, or says what is wrong."""
+    global failed
+    failed |= bool(fault)
+    print(f"{'FAILED' if fault else 'ok':6} {name}  {fault}", flush=True)
+
+
+def work_in(folder):
+    """An empty folder, from here on the current one."""
+    shutil.rmtree(folder, ignore_errors=True)
+    pathlib.Path(folder).mkdir(parents=True)
+    os.chdir(folder)
 
 
 def mpirun(*programs, timeout=60):

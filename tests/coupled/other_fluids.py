@@ -11,7 +11,8 @@ import shutil
 import subprocess
 import sys
 
-from launch import history, mpirun
+import launch
+from launch import history, mpirun, report
 
 BUILD, SOURCE, OUT = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 CSD, PYTHON, FLUIDS = BUILD / "bin" / "csd", "/usr/bin/python3", SOURCE / "run" / "fluids"
@@ -19,7 +20,6 @@ sys.path.append(str(FLUIDS))
 import kingery_bulmash  # noqa: E402
 
 OUT.mkdir(parents=True, exist_ok=True)
-failed = False
 SLAB = """
 [time]
 end = "1 ms"
@@ -33,12 +33,6 @@ velocity = [1.0, 0.0, 0.0]
 [solid.wet]
 faces = ["x_lower"]
 """
-
-
-def report(name, fault):
-    global failed
-    failed |= bool(fault)
-    print(f"{'FAILED' if fault else 'ok':6} {name}  {fault}", flush=True)
 
 
 def write_case(name, text):
@@ -153,4 +147,4 @@ blast()
 failures()
 from_the_text_alone()
 installed()
-sys.exit(failed)
+sys.exit(launch.failed)

@@ -80,7 +80,7 @@ int run_solid(Channel& channel, const CouplingCase& cs) {
     error = 0;
     for (int w = 1; w <= windows; ++w) {
       const double t_next = episode + 1 == episodes && w == windows ? side.t_end() : start + duration * w / windows;
-      const WetSurface wet = face_at(x, v, episode);
+      WetSurface wet = face_at(x, v, episode);
       const double wet_time = t;
       side.send({.t0 = t, .t1_max = t_next, .dt_stable = 1e-5}, wet);
       const std::optional<Loads> expected = side.expect();

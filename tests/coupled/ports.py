@@ -11,20 +11,12 @@ import subprocess
 import sys
 import time
 
-from launch import ENVIRONMENT, mpirun
+import launch
+from launch import ENVIRONMENT, mpirun, report
 
 BUILD, SOURCE, OUT = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 CSD, CFD, PYTHON, LIMIT = BUILD / "bin" / "csd", BUILD / "bin" / "cfd", "/usr/bin/python3", 5.0  # s from accident to end; below 2 on an idle machine
-shutil.rmtree(OUT, ignore_errors=True)
-OUT.mkdir(parents=True)
-os.chdir(OUT)
-failed = False
-
-
-def report(name, fault):
-    global failed
-    failed |= bool(fault)
-    print(f"{'FAILED' if fault else 'ok':6} {name}  {fault}", flush=True)
+launch.work_in(OUT)
 
 
 def case(name, *changes, join='join = "port"\nport_file = "port"\n'):
@@ -126,4 +118,4 @@ one, two = start(1, CSD, file, server=False), start(1, CFD, file, server=False)
 ends = end(one), end(two)
 report(f"without ompi-server: exit codes {ends[0][0]}, {ends[1][0]}",
        "" if ends[0][0] == ends[1][0] == 73 and "ompi-server --no-daemonize" in ends[1][1] and "the other program ended while" in ends[0][1] else ends[0][1] + ends[1][1])
-sys.exit(failed)
+sys.exit(launch.failed)

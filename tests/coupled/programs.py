@@ -12,7 +12,8 @@ import sys
 import threading
 import time
 
-from launch import ENVIRONMENT
+import launch
+from launch import ENVIRONMENT, report
 
 FOLDER, CASE, OUT = sys.argv[1:4]
 LIMIT = 5.0  # s from accident to end; below 2 on an idle machine
@@ -52,15 +53,6 @@ def start(name, programs, change=("", ""), accident=None):
     return mpirun.returncode, said, time.monotonic() - killed_at[0] if killed_at else 0
 
 
-failed = False
-
-
-def report(name, fault):
-    global failed
-    failed |= bool(fault)
-    print(f"{'FAILED' if fault else 'ok':6} {name}  {fault}", flush=True)
-
-
 def history(name):
     with open(f"{OUT}/{name}/solid_history.csv", "rb") as file:
         return file.read()
@@ -91,4 +83,4 @@ for name, change, accident, code_wanted, words in (
     if seconds > LIMIT:
         faults.append(f"{seconds:.1f} s from accident to end")
     report(f"{name} (exit code {code}, {seconds:.2f} s)", "; ".join(faults) + "\n" + said if faults else "")
-sys.exit(failed)
+sys.exit(launch.failed)

@@ -6,7 +6,6 @@ fit, other grids.
 import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -18,20 +17,12 @@ BUILD, OUT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 os.environ["BREAKWAVE_BUILD"] = str(BUILD)
 sys.argv = sys.argv[:2]
 import runs  # noqa: E402
-from launch import ENVIRONMENT, history, mpirun  # noqa: E402
+import launch  # noqa: E402
+from launch import ENVIRONMENT, history, mpirun, report  # noqa: E402
 
 CSD, CFD = BUILD / "bin" / "csd", BUILD / "bin" / "cfd"
 CASE = runs.SHELL.replace("cells = [48, 48, 48]", "cells = [24, 24, 24]").replace("around = 32", "around = 16").replace('end = "30 us"', 'end = "24 us"')
-shutil.rmtree(OUT, ignore_errors=True)
-OUT.mkdir(parents=True)
-os.chdir(OUT)
-failed = False
-
-
-def report(name, fault):
-    global failed
-    failed |= bool(fault)
-    print(f"{'FAILED' if fault else 'ok':6} {name}  {fault}", flush=True)
+launch.work_in(OUT)
 
 
 def case(name, *changes):
@@ -115,4 +106,4 @@ for name, program, changes, wanted, says in (
     report(name, replay(name, program, 1, case(name.replace(" ", "_"), *changes), "out/record.h5", *(["--end", "8 us"] if wanted == 0 else []), code=wanted, says=says)[0])
 code, text = mpirun((1, CSD, "case.toml", "--replay", "out/record.h5"), (1, CFD, "case.toml"))
 report("a replay of one beside the other", "" if code == 2 and "each program runs alone" in text else f"exit code {code}\n{text}")
-sys.exit(failed)
+sys.exit(launch.failed)

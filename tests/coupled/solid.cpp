@@ -83,18 +83,19 @@ int run_solid(const Comm& mine, Channel& channel, const CouplingCase& cs, const 
     for (size_t f = 0; f < wet.quads.size(); ++f)  // on every rank
       if (loads.p[f] != pressure(wet, f, window)) throw PhysicsError(fmt::format("P of face {} is another face's", f));
     const std::vector<Vec3> force = nodal_loads(wet, loads, cs.reference_pressure);
-    const std::vector<Vec3> x_window = wet.x;
+    std::vector<Vec3> x = wet.x;
     EqualSubsteps sub(t, loads.t1);
     while (!sub.done()) {
       const double h = sub.next(0.7e-5);
-      const std::vector<Vec3> before = wet.x;
-      for (size_t i = 0; i < wet.x.size(); ++i) wet.x[i] += h * wet.v[i];
-      SolidTotals totals = substep_totals(force, x_window, before, wet.x, h);
+      const std::vector<Vec3> before = x;
+      for (size_t i = 0; i < x.size(); ++i) x[i] += h * wet.v[i];
+      SolidTotals totals = substep_totals(force, wet.x, before, x, h);
       if (scenario.is("lost_impulse") && window == accident_window) mark_accident(), totals.impulse.x *= 1 + 1e-9;
       side.add(totals);
       t = sub.advance();
     }
-    side.end_window(wet.x);
+    side.end_window(x);
+    wet.x = x;
     if (mine.root() && norm(side.books().moment_defect) > 1e-12 * side.books().impulse_scale)
       throw PhysicsError("the moments of the two sides differ");
     if (mine.root() && std::abs(side.books().volume_gap) > 1e-15)

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bell between the leaders of one job on one host. MPI has no waiting that leaves the core to others: a program that
+// waits sleeps and looks, and messages lie there until it does. Who hears the bell looks at once. It carries nothing,
+// and without it (another host, another program, another system) all goes on as before.
+#pragma once
+#include <string>
+
+namespace bw::coupling {
+
+class Bell {
+ public:
+  /// mine, other: roles. The job is told by its launcher's environment; without that nothing rings.
+  Bell(const std::string& mine, const std::string& other);
+  ~Bell();
+  Bell(const Bell&) = delete;
+
+  /// The other's, if there is one.
+  void ring() const;
+  /// Until mine rings, `limit` s at most.
+  void wait(double limit);
+  /// It has rung before: the other one does.
+  bool is_known() const { return is_known_; }
+
+ private:
+  int descriptor_ = -1;
+  std::string other_;  // name of the other's socket
+  bool is_known_ = false;
+};
+
+}  // namespace bw::coupling
