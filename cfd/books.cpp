@@ -2,6 +2,7 @@
 #include "cfd/books.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/parallel/loop.h"
 
@@ -27,6 +28,7 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t n) {
     const int b = blocks[size_t(n)];
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
+    const std::vector<double> open = open_volumes(m, b);
     FluidSums sum;
     if (m.forest.shape().radial()) {
       per_block_[size_t(b)] = shells(m, b);
@@ -41,9 +43,10 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
         for (; c + Pack::size <= cells; c += Pack::size) packs += Pack::load(U + c);
       for (int l = 0; l < Pack::size; ++l) sum.U[q] += packs[l];
       for (; c < cells; ++c)
-        if (blocked.empty() || !blocked[size_t(c)]) sum.U[q] += U[c];
+        if (blocked.empty() || !blocked[size_t(c)]) sum.U[q] += open.empty() ? U[c] : open[size_t(c)] * U[c];
     }
     sum.volume = double(blocked.empty() ? cells : std::count(blocked.begin(), blocked.end(), 0));
+    if (!open.empty()) sum.volume = std::accumulate(open.begin(), open.end(), 0.0);
     for (double& u : sum.U) u *= volume;
     sum.volume *= volume;
     per_block_[size_t(b)] = sum;

@@ -230,7 +230,9 @@ void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region,
 WallOptions make_wall_options(const WallsCase& walls) {
   WallOptions r;
   if (walls.slits != "centre") r.slits = walls.slits == "area" ? Slits::area : Slits::sealed;
-  if (walls.treatment != "half_riemann") r.treatment = walls.treatment == "mirror" ? WallTreatment::mirror : WallTreatment::first_order;
+  if (walls.treatment == "first_order") r.treatment = WallTreatment::first_order;
+  if (walls.treatment == "mirror") r.treatment = WallTreatment::mirror;
+  if (walls.treatment == "cut_cell") r.treatment = WallTreatment::cut_cell;
   r.conservative = walls.loads == "conservative";
   return r;
 }
@@ -260,9 +262,28 @@ void add_walls(Model& m, double p_ref) {
   m.walls.emplace(lattice, ghost_rules(m.setup.boundary), s.n, p_ref, m.wall_options);
 }
 
+std::vector<double> open_volumes(const Model& m, int block) {
+  std::vector<double> open;
+  const CutCells* cut = m.walls ? m.walls->cut() : nullptr;
+  const Index3 first = m.forest.first_finest(block);
+  if (!cut || !cut->near(first)) return open;
+  const BlockShape& s = m.forest.shape();
+  for (int k = 0; k < s.n[2]; ++k)
+    for (int j = 0; j < s.n[1]; ++j)
+      for (int i = 0; i < s.n[0]; ++i) open.push_back(cut->volume({first[0] + i, first[1] + j, first[2] + k}));
+  return open;
+}
+
 std::vector<uint8_t> blocked_cells(const Model& m, int block) {
   std::vector<uint8_t> blocked;
   if (!m.walls) return blocked;
+  if (const CutCells* cut = m.walls->cut()) {
+    if (cut->near(m.forest.first_finest(block)))
+      for (const double open : open_volumes(m, block)) blocked.push_back(!(open > 0));
+    else if (cut->closed(m.forest.first_finest(block)))
+      blocked.assign(size_t(m.forest.shape().cells()), 1);
+    return blocked;
+  }
   const BlockShape& s = m.forest.shape();
   const Index3 first = m.forest.first_finest(block), n = m.forest.finest_cells(block);
   const bool finest = m.forest.level(block) == m.forest.levels();

@@ -39,6 +39,8 @@ void add_walls(Model& m, double p_ref);
 void paint(Model& m, const Case& cs);
 /// What is known of each block, from its cells. Covered cells do not count.
 void inspect(Model& m, const std::vector<int>& blocks);
+/// Parts of a block's cells that hold fluid, [k][j][i]; empty if blocked_cells() tells all.
+std::vector<double> open_volumes(const Model& m, int block);
 /// Cells of a block that hold no fluid: [k][j][i] flags; empty if all do.
 std::vector<uint8_t> blocked_cells(const Model& m, int block);
 

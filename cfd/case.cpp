@@ -146,6 +146,19 @@ void FluidCase::check_afterburn() const {
     throw InputError(fmt::format("{}: expected fluid.afterburn.energy: the heat of combustion of \"{}\" is not in the library", afterburn->place, m.name));
 }
 
+void FluidCase::check_cut_cells() const {
+  const auto fail = [&](const std::string& expected) {
+    throw InputError(fmt::format("{}: expected {} beside treatment = \"cut_cell\"", walls.place, expected));
+  };
+  const auto is_gas = [](const auto& e) { return e.constant_reference && e.covolume() == 0; };
+  if (material.size() != 1 || !std::visit(is_gas, *material[0].eos)) fail("one [[fluid.material]], an ideal or stiffened gas,");
+  if (amr) fail("no [fluid.amr]");
+  if (walls.slits != "centre") fail("slits = \"centre\", cell faces being as open as they are,");
+  for (const BodyCase& b : body)
+    if (b.thin || std::holds_alternative<PlaneShape>(b.shape) || std::holds_alternative<PistonShape>(b.shape))
+      fail(fmt::format("a closed body (a box in place of a piston or plane) in place of \"{}\"", b.name));
+}
+
 void FluidCase::check(Keys& k) const {
   if (material.empty() || material.size() > 2) k.fail("material", "one or two [[fluid.material]] tables");
   if (material.size() == 2 && material[0].name == material[1].name) k.fail("material", "two names that differ");
@@ -180,6 +193,7 @@ void FluidCase::check(Keys& k) const {
       throw InputError(fmt::format("{}: there is no explosive: expected a [[fluid.region]] of \"{}\" with unburnt = true", b.place, b.material));
   }
   if (afterburn) check_afterburn();
+  if (walls.treatment == "cut_cell") check_cut_cells();
   if (scheme.interface == "sharp" && !body.empty())
     throw InputError(fmt::format("{}: expected \"smooth\" beside bodies: their walls reconstruct by lines", scheme.place));
   if (scheme.interface == "sharp" && material.size() != 2)

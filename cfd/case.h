@@ -259,13 +259,15 @@ struct SchemeCase {
 };
 
 struct WallsCase {
-  std::string treatment = "half_riemann", slits = "centre", loads = "pressure";
+  std::string treatment = "half_riemann", slits = "centre", loads = "pressure", place;
   template <class K>
   void describe(K& k) {
-    k.choice("treatment", treatment, {"half_riemann", "first_order", "mirror"},
+    k.choice("treatment", treatment, {"half_riemann", "first_order", "mirror", "cut_cell"},
              "of cut links. half_riemann: half a Riemann problem at the wall where it is, at the end of a line through the cells, second order; first_order: the mirror "
              "image of the cell, as if the wall were at the cell face; mirror: images of points before the wall on reconstructed gradients, the pressure with "
-             "dp/dn = -rho a_n, second order. Cells that walls uncover are filled alike");
+             "dp/dn = -rho a_n, second order. Cells that walls uncover are filled alike. cut_cell: open volumes and cell faces as they are, mass, momentum and energy conserved, "
+             "closed bodies thicker than two cells, one gas");
+    place = k.where("treatment");
     k.choice("slits", slits, {"centre", "area", "sealed"},
              "openings narrower than a cell, between walls thinner than one, and edges of such walls. centre: the line between two cell centres decides, all or "
              "nothing; area: gas flows through the open part of a cell face; sealed: nothing passes a cell face of which any part is blocked");
@@ -323,6 +325,7 @@ struct FluidCase {
   void check_radial(Keys& k) const;
   void use_levels(Keys& k);
   void check_afterburn() const;
+  void check_cut_cells() const;
   void check(Keys& k) const;
 };
 

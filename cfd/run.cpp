@@ -154,6 +154,8 @@ coupling::FluidTotals totals_of(const Model& m, const Books& books) {
 int run_coupled(const Case& cs, Model& m, coupling::Channel& channel) {
   if (cs.fluid.scheme.interface == "sharp")
     throw InputError(fmt::format("{}: expected \"smooth\" in a coupled run: walls reconstruct by lines", cs.fluid.scheme.place));
+  if (cs.fluid.walls.treatment == "cut_cell")
+    throw InputError(fmt::format("{}: expected another treatment than \"cut_cell\" in a coupled run: a solid's surface cracks and gets thinner than two cells", cs.fluid.walls.place));
   if (!cs.fluid.body.empty()) throw InputError(fmt::format("{}: fluid.body: bodies are for runs of cfd alone; the solid program gives the surface here", cs.file));
   std::optional<coupling::CommitMark> mark;
   if (!cs.restart.empty()) mark = coupling::find_commit(cs.restart);

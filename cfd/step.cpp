@@ -31,7 +31,7 @@ double place_walls(Model& m, Sweep& sweep, Books& books, const WallMotion& motio
     follow_walls(m, sweep, books);
     const double largest = m.walls->largest_step();
     if (largest >= dt || i == most_tries) {
-      m.walls->set_step(dt);
+      m.walls->set_step(dt, motion.x_end(dt));
       return dt;
     }
     dt = 0.9 * largest;

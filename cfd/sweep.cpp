@@ -36,6 +36,10 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     space.gas.emplace(forest.shape());
     space.mixed.emplace(forest.shape());
     if (!walls_) continue;
+    if (walls_->cut()) {
+      space.cut_cell.emplace(forest.finest_shape());
+      continue;
+    }
     space.cuts = PatchCuts(forest.finest_shape());
     for (int m = 0; m < 2; ++m)
       if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.finest_shape(), walls_->treatment());
@@ -79,7 +83,9 @@ void Sweep::select(const State& s, double dt) {
                    end{first[0] + n[0], first[1] + n[1], first[2] + n[2]};
       const bool finest = forest_.level(b) == forest_.levels();
       // a coarser block is in metal or away from it (cfd/amr/criteria.h)
-      near_[size_t(b)] = finest && !walls_->near(first) ? far
+      const bool met = walls_->cut() ? walls_->cut()->near(first) : walls_->near(first);
+      near_[size_t(b)] = finest && !met ? (walls_->cut() && walls_->cut()->closed(first) ? metal : far)
+                         : walls_->cut() ? near
                          : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end)
                              ? metal
                          : finest ? near
@@ -158,7 +164,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
   else
     space.mixed->advance(patch, setup_.medium.mixed(), dt_, change);
-  if (near_[size_t(block)] == near) in.blocked = meet_walls(block, space);
+  if (near_[size_t(block)] == near) in.blocked = meet_walls(s, block, space);
   if (change.keep_sides) match_levels(block, space);
   in.others_hold = m != 0 && gas_before_[size_t(block)] == m;
   marks_[size_t(block)].clear();
@@ -181,8 +187,16 @@ void Sweep::match_levels(int block, Space& space) {
   fluxes_.correct(block, space.patch, rows, space.change);
 }
 
-const uint8_t* Sweep::meet_walls(int block, Space& space) {
+const uint8_t* Sweep::meet_walls(const State& s, int block, Space& space) {
   const Index3 first = forest_.first_cell(block);
+  if (walls_->cut()) {
+    wall_[size_t(block)] = {};
+    links_[size_t(block)].clear();
+    const GasFlow& gas = setup_.medium.gas[space.patch.material - 1];
+    space.cut_cell->correct(space.patch, gas, dt_, first, s.block(block), *walls_->cut(), walls_->rules(), space.change,
+                            wall_[size_t(block)], links_[size_t(block)], space.blocked);
+    return space.blocked.data();
+  }
   space.cuts.gather(walls_->map(), walls_->rules(), first);
   if (!space.cuts.any()) return nullptr;
   wall_[size_t(block)] = {};
@@ -190,14 +204,14 @@ const uint8_t* Sweep::meet_walls(int block, Space& space) {
   if (links) links->clear();
   cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)], links);
   load_probes(block, space, dt_);
-  const BlockShape& s = forest_.shape();
-  space.blocked.assign(size_t(s.cells()), 0);
+  const BlockShape& shape = forest_.shape();
+  space.blocked.assign(size_t(shape.cells()), 0);
   bool any = false;
-  for (int k = 0; k < s.n[2]; ++k)
-    for (int j = 0; j < s.n[1]; ++j)
-      for (int i = 0; i < s.n[0]; ++i) {
-        space.blocked[s.at(k, j, i)] = space.cuts.blocked(space.cuts.at(k, j, i));
-        any = any || space.blocked[s.at(k, j, i)];
+  for (int k = 0; k < shape.n[2]; ++k)
+    for (int j = 0; j < shape.n[1]; ++j)
+      for (int i = 0; i < shape.n[0]; ++i) {
+        space.blocked[shape.at(k, j, i)] = space.cuts.blocked(space.cuts.at(k, j, i));
+        any = any || space.blocked[shape.at(k, j, i)];
       }
   return any ? space.blocked.data() : nullptr;
 }
@@ -248,7 +262,9 @@ std::vector<LinkLoad> Sweep::link_loads() const {
 
 void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
   const Changes& changes = walls_->changes();
-  if (changes.covered.empty() && changes.fresh.empty()) return;
+  if (walls_->cut())  // these cells have their gas
+    for (int layer = 1; layer <= changes.layers; ++layer) walls_->accept(layer);
+  if (walls_->cut() || (changes.covered.empty() && changes.fresh.empty())) return;
   const BlockShape& shape = forest_.finest_shape();
   struct Place {
     int block;
@@ -333,12 +349,50 @@ void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_orde
                          [&](int64_t i, Space& space) { one_block(s, of_level[size_t(i)], first_order, space); });
     if (level > 0) fluxes_.exchange(level);
   }
+  if (walls_ && walls_->cut()) mix_cut_cells(s);
   count_bad();
+}
+
+void Sweep::mix_cut_cells(State& s) {
+  CutCells& cut = *walls_->cut();
+  const GasFlow& gas = setup_.medium.gas[0];
+  const auto pressure_of = [&](const double* U, double (&W)[GasPrim::stored]) {
+    double whole[GasCons::count];
+    std::copy_n(U, int(GasCons::count), whole);
+    return gas_to_primitive(gas, whole, W, setup_.medium.floors);
+  };
+  const auto usable_gas = [&](const double* U) {
+    double W[GasPrim::stored];
+    return pressure_of(U, W) >= setup_.medium.floors.p && U[GasCons::rho] >= setup_.medium.floors.rho;
+  };
+  cut.mix(forest_.comm(), usable_gas);
+  cut_bad_.assign(size_t(forest_.local_blocks()), 0);
+  const BlockShape& shape = forest_.finest_shape();
+  for (size_t n = 0; n < cut.cells().size(); ++n) {
+    const Forest::Cell at = forest_.find_finest(cut.cells()[n].cell);
+    if (at.block < 0 || at.block >= forest_.local_blocks() || !(cut.cells()[n].volume1 > 0)) continue;
+    const size_t b = size_t(at.block), cell = shape.at(at.k, at.j, at.i);
+    const double* U = cut.mean(n);
+    for (int q = 0; q < GasCons::count; ++q) s.spare(at.block)[size_t(gas.cons_row(q)) * size_t(shape.cells()) + cell] = U[q];
+    BlockInfo& info = result_[b].info;
+    info.material = 1, info.at_rest = 0;
+    if (!usable_gas(U)) {
+      if (cut_bad_[b]++ == 0 && result_[b].bad == 0) result_[b].first_bad = int(cell);
+      if (marks_[b].empty()) marks_[b].assign(size_t(shape.cells()), 0);
+      marks_[b][cell] = 1;
+      continue;
+    }
+    double W[GasPrim::stored], rate = 0;
+    info.p_max = std::max(info.p_max, pressure_of(U, W));
+    for (int d = 0; d < 3; ++d)
+      if (shape.used[size_t(d)]) rate += (std::abs(W[GasPrim::v + d]) + W[GasPrim::c]) / shape.h[d];
+    info.rate = std::max(info.rate, rate);
+  }
 }
 
 void Sweep::count_bad() {
   int64_t bad = 0;
-  for (int b : active_) bad += result_[size_t(b)].bad;
+  for (int b : active_) bad += result_[size_t(b)].bad + (cut_bad_.empty() ? 0 : cut_bad_[size_t(b)]);
   bad_ = forest_.comm().sum(bad);
 }
 
@@ -405,6 +459,7 @@ void Sweep::commit(State& s) {
     s.info[size_t(b)] = result_[size_t(b)].info;
     gas_before_[size_t(b)] = int8_t(result_[size_t(b)].gas);
   }
+  if (walls_ && walls_->cut()) walls_->cut()->commit();
   for (int b = 0; b < forest_.local_blocks(); ++b) s.booked[size_t(b)] += pending_[size_t(b)];
   s.t = t_ + dt_;
   ++s.step;
@@ -412,7 +467,7 @@ void Sweep::commit(State& s) {
 
 BadCell Sweep::first_bad() const {
   for (int b : active_)
-    if (result_[size_t(b)].bad > 0) return {b, result_[size_t(b)].first_bad};
+    if (result_[size_t(b)].bad + (cut_bad_.empty() ? 0 : cut_bad_[size_t(b)]) > 0) return {b, result_[size_t(b)].first_bad};
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include "cfd/amr/flux_register.h"
 #include "cfd/amr/gather.h"
 #include "cfd/amr/update.h"
+#include "cfd/cut/kernel.h"
 #include "cfd/embed/walls.h"
 #include "cfd/amr/radial.h"
 #include "cfd/scheme/block_kernel.h"
@@ -46,7 +47,11 @@ class Sweep {
   /// The forest has other blocks now.
   void fit();
   /// Copies of other ranks' blocks and their info: before select() and advance().
-  void exchange(State& s) const { exchange_state(forest_, s); }
+  void exchange(State& s) const {
+    if (walls_ && walls_->cut())  // one gas everywhere; blocks without open cells don't know
+      for (int b = 0; b < forest_.local_blocks(); ++b) s.info[size_t(b)].material = 1;
+    exchange_state(forest_, s);
+  }
   /// Energy per mass that products release in the next step by burning on [J/kg].
   void burn_on(double heat) { heat_ = heat; }
   /// Chooses the blocks of a step of size dt.
@@ -93,6 +98,7 @@ class Sweep {
     RadialSpace radial;
     PatchCuts cuts;
     std::unique_ptr<CutScheme> cut_gas[2], cut_mixed;  ///< made when there are walls
+    std::optional<CutCellKernel> cut_cell;             ///< in their place
     std::vector<uint8_t> blocked;
   };
   enum Near : uint8_t { far, near, metal };
@@ -102,7 +108,9 @@ class Sweep {
   }
   /// Corrects the change beside walls, loads the block's probes; returns the cells without fluid, nullptr if there are
   /// none.
-  const uint8_t* meet_walls(int block, Space& space);
+  const uint8_t* meet_walls(const State& s, int block, Space& space);
+  /// The end of the step of cut cells and those around them, in the spare copies.
+  void mix_cut_cells(State& s);
   void load_probes(int block, Space& space, double dt);
   void run_blocks(State& s, const std::vector<int>& blocks, bool first_order);
   void one_block(State& s, int block, bool first_order, Space& space);
@@ -132,6 +140,7 @@ class Sweep {
   std::vector<WallExchange> wall_;                 ///< [local block] of this step
   std::vector<std::vector<LinkLoad>> links_;       ///< [local block] of this step; of conservative loads
   std::vector<uint8_t> ghost_marks_;               ///< of other ranks' blocks, when any rank has marks
+  std::vector<int64_t> cut_bad_;                   ///< [local block] bad cells of mix_cut_cells()
   int64_t bad_ = 0;
   std::vector<Space> spaces_;
 };

@@ -15,6 +15,7 @@ enum class WallTreatment {
   half_riemann,  ///< the wall where it is, at the end of a line through the cells: half a Riemann problem; second order
   first_order,   ///< the mirror image of the cell itself, as if the wall were at the cell face
   mirror,        ///< mirror images of points before the wall, on reconstructed gradients, with dp/dn = -rho a_n
+  cut_cell,      ///< open volumes and cell faces as they are, conservative (cfd/cut/cells.h)
 };
 
 /// What the fluid of a block lost through cut links in one step.

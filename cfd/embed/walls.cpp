@@ -14,6 +14,7 @@ Walls::Walls(const Lattice& lattice, const GhostRules& rules, const std::array<i
     : lattice_(lattice), rules_(rules), block_(block), p_ref_(p_ref), options_(options) {
   for (size_t d = 0; d < 3; ++d) blocks_[d] = lattice.n[d] / block[d];
   map_.clear(lattice);
+  if (options.treatment == WallTreatment::cut_cell) cut_.emplace(lattice, rules, block);
 }
 
 size_t Walls::block_number(const Index3& c) const {
@@ -49,14 +50,16 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
     surface_.v = v;
     rescan(placed_ ? &before : nullptr);
   }
+  if (cut_ && !placed_) cut_->place(surface_, x);
   placed_ = true;
   if (!probes_current_) place_probes();
   for (Probe& p : probes_) p.v = coupling::face_mean(surface_.v, surface_.quads[size_t(p.face)]);
   values_.assign(2 * probes_.size(), 0.0);
 }
 
-void Walls::set_step(double dt) {
+void Walls::set_step(double dt, const std::vector<Vec3>& x_end) {
   dt_ = dt;
+  if (cut_) cut_->begin(surface_, surface_.x, surface_.v, x_end, dt);
   if (options_.treatment != WallTreatment::mirror || v_last_.empty()) return;
   std::vector<Vec3> a(surface_.v.size());
   for (size_t i = 0; i < a.size(); ++i) a[i] = (surface_.v[i] - v_last_[i]) * (2 / (dt + dt_last_));
@@ -140,6 +143,13 @@ void Walls::set_links(const std::vector<LinkLoad>& links, double dt) {
   }
 }
 
+Vec3 Walls::area_at_middle(int32_t face) const {
+  const std::array<int32_t, 4>& q = surface_.quads[size_t(face)];
+  std::vector<Vec3> x;
+  for (const int32_t node : q) x.push_back(surface_.x[size_t(node)] + 0.5 * dt_ * surface_.v[size_t(node)]);
+  return coupling::area_vector(x, {0, 1, 2, 3});
+}
+
 coupling::Loads Walls::loads() {
   coupling::Loads r;
   const size_t faces = surface_.quads.size();
@@ -163,6 +173,10 @@ coupling::Loads Walls::loads() {
     const bool thin = !surface_.flags.empty() && surface_.flags[f] & coupling::face_thin;
     r.p[f] = thin ? p_ref_ + p[0][f] - p[1][f] : p[0][f];
     const Vec3 area = coupling::area_vector(surface_.x, surface_.quads[f]);
+    if (cut_ && face_forces_.met[f]) {  // facets have pressures of their own
+      wet[f] = 1;
+      r.p[f] = p_ref_ - dot(face_forces_.force[f], area) / std::max(dot(area, area), 1e-300);
+    }
     if (!wet[f]) {
       ++r.totals.dry_faces;
       r.totals.dry_area += norm(area);
@@ -176,8 +190,9 @@ coupling::Loads Walls::loads() {
     }
     if (!conservative() || !(wet[f] || face_forces_.met[f])) continue;
     const Vec3 sent = coupling::area_vector(sent_x_, surface_.quads[f]);
-    if (const double size = norm(sent); size > 0)
-      r.traction[f] = (face_forces_.force[f] + (r.p[f] - p_ref_) * sent) / size;
+    Vec3 force = face_forces_.force[f];
+    if (cut_) force -= p_ref_ * (area_at_middle(int32_t(f)) - sent);  // facets are those of mid-step
+    if (const double size = norm(sent); size > 0) r.traction[f] = (force + (r.p[f] - p_ref_) * sent) / size;
   }
   return r;
 }
@@ -198,9 +213,11 @@ void Walls::save(const Saved& to) const {
   to.same("lips", faces);
   to.same("apertures", first);
   if (options_.treatment == WallTreatment::mirror) to.same("v_last", v_last_), to.number("dt_last", dt_last_);
+  if (cut_) cut_->save(to);
 }
 
 void Walls::restore(const Restored& from, const coupling::WetSurface& surface) {
+  if (cut_) cut_->restore(from);
   begin(surface, from.same<Vec3>("x"), from.same<Vec3>("v"));
   for (const std::array<int32_t, 4>& c : from.same<std::array<int32_t, 4>>("cells")) {
     map_.set_flag({c[0], c[1], c[2]}, uint8_t(c[3]));

@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cfd/cut/cells.h"
 #include "cfd/embed/apertures.h"
 #include "cfd/embed/cut_scheme.h"
 #include "cfd/embed/lips.h"
@@ -51,9 +52,10 @@ class Walls {
   /// A window starts: nodes are at x and keep v for the window [n_nodes]. Rescans if the topology is new or the nodes
   /// are not where end() left them.
   void begin(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v);
-  /// The window will last dt: walls whose velocity is another than in the last one are accelerated. Unless it is called
-  /// before the step, and in the first window, the treatment `mirror` takes them for unaccelerated.
-  void set_step(double dt);
+  /// The window will last dt, nodes will be at x_end: walls whose velocity is another than in the last one are
+  /// accelerated. Unless it is called before the step, and in the first window, the treatment `mirror` takes them for
+  /// unaccelerated. The treatment `cut_cell` needs it.
+  void set_step(double dt, const std::vector<Vec3>& x_end);
   /// The window is over: nodes are at x_end.
   void end(const std::vector<Vec3>& x_end);
   /// s; no wall goes further than half a cell.
@@ -89,7 +91,7 @@ class Walls {
   coupling::Loads loads();
   /// Do faces carry what the cut links across them gave? loads() then adds the traction that makes it so on the areas of
   /// the surface that was given to begin(); lips are not blended.
-  bool conservative() const { return options_.conservative; }
+  bool conservative() const { return options_.conservative || cut_; }
   WallTreatment treatment() const { return options_.treatment; }
   /// Before loads(): of the window of dt.
   void set_links(const std::vector<LinkLoad>& links, double dt);
@@ -98,6 +100,9 @@ class Walls {
   Vec3 lip_force() const { return lip_force_; }
 
   const coupling::WetSurface& surface() const { return surface_; }
+  /// Of the treatment `cut_cell`; nullptr with the others.
+  CutCells* cut() { return cut_ ? &*cut_ : nullptr; }
+  const CutCells* cut() const { return cut_ ? &*cut_ : nullptr; }
 
   // --- checkpoints
   /// Nodes, and what follows from the past: cells that wait for fluid; apertures of lips; the last window's velocities.
@@ -108,6 +113,7 @@ class Walls {
  private:
   void rescan(const std::vector<Vec3>* x_before);
   void place_probes();
+  Vec3 area_at_middle(int32_t face) const;
   size_t block_number(const Index3& cell) const;
 
   Lattice lattice_;
@@ -115,6 +121,7 @@ class Walls {
   std::array<int, 3> block_, blocks_;
   double p_ref_;
   WallOptions options_;
+  std::optional<CutCells> cut_;
   FaceForces face_forces_;
   bool placed_ = false, probes_current_ = false;
   coupling::WetSurface surface_;  ///< with the walls' own x

@@ -24,13 +24,13 @@ def f10():
     yield from oblique_pistons()
 
 
-def aligned_pistons(walls="", note=""):
-    """Pistons along the grid; walls: text of [fluid.walls]."""
+def aligned_pistons(walls="", note="", body=piston):
+    """Pistons along the grid; walls: text of [fluid.walls]; body: that of a speed, a point and a normal."""
     n, x0 = 400, 0.5
     for speed in (50, 100, 340, 1000, 2000, -50, -100, -340, -1000, -2000):
         t = 1e-3 if abs(speed) < 1000 else 2e-4
         text = tube(0.0, 2.0, n, 0, ("wall", "wall"), t) + walls + material("air", reference.GAS)
-        text += region('{kind = "everywhere"}', "air", 1.225, 101325.0) + piston(speed, (x0, 0, 0))
+        text += region('{kind = "everywhere"}', "air", 1.225, 101325.0) + body(speed, (x0, 0, 0))
         result = run(f"F10_{speed}{note}", text, only="fluid")
         x, rho, u, p = profile(result.directory, 0)
         yield from impulsive(speed, x, rho, p, x0, t, 2.0 / n, result.seconds, note)
@@ -60,8 +60,8 @@ def impulsive(speed, x, rho, p, x0, t, h, seconds, note=""):
         yield at_least(f"{name}: least pressure", p[x > wall].min(), 0.0)
 
 
-def oblique_pistons(walls="", note=""):
-    """The wall leans by 30 degrees: a line along its way through the middle of a box; walls: text of [fluid.walls]."""
+def oblique_pistons(walls="", note="", body=piston):
+    """The wall leans by 30 degrees: a line along its way through the middle of a box; arguments as of aligned_pistons."""
     n, angle = 200, math.radians(30)
     normal = (math.cos(angle), math.sin(angle), 0.0)
     h, centre = 1.0 / n, np.array([0.5, 0.5])
@@ -70,7 +70,7 @@ def oblique_pistons(walls="", note=""):
         text = (f"[time]\nend = {t!r}\n" + output(f"{t!r} s", "0 s")
                 + f'[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, {h!r}]\ncells = [{n}, {n}, 1]\n'
                 + 'boundary = {x_lower = "outflow", x_upper = "outflow", y_lower = "outflow", y_upper = "outflow"}\n')
-        text += walls + material("air", reference.GAS) + region('{kind = "everywhere"}', "air", 1.225, 101325.0) + piston(speed, (*centre, 0.0), normal)
+        text += walls + material("air", reference.GAS) + region('{kind = "everywhere"}', "air", 1.225, 101325.0) + body(speed, (*centre, 0.0), normal)
         result = run(f"F10_30deg_{speed}{note}", text, only="fluid")
         flow = fields.Fluid(fields.series(result.directory, "fluid")[-1][1])
         X, Y = np.meshgrid(flow.centres(0), flow.centres(1), indexing="ij")

@@ -42,13 +42,20 @@ def picture(result, *names):
     return (flow.centres(0), flow.centres(1), *(flow.array(name)[:, :, 0].T for name in names))
 
 
-def wedge(mach, theta, n, x0=0.203, threads=0, walls="", note=""):
-    """A wedge in a supersonic stream until it is steady, n cells a unit of length; walls: text of [fluid.walls]: the run, the exact angle of its shock and the pressure behind it."""
+def wedge(mach, theta, n, x0=0.203, threads=0, walls="", note="", ramp=False):
+    """A wedge in a supersonic stream until it is steady, n cells a unit of length; walls: text of [fluid.walls]; ramp: it rises from the floor: the run, the exact angle of its shock
+    and the pressure behind it."""
     beta = weak_shock(mach, theta)
     p2, rho2, _, after = oblique(mach, beta)
     end = 1.6 / ((after - 1) * math.sqrt(p2 / rho2))  # until the slowest wave along the wall has left
     body = f'[[fluid.body]]\nname = "wedge"\nshape = {{kind = "wedge", point = [{x0!r}, 0.1037, 0.0], angle = {theta!r}, length = 3.0}}\n'
-    return run(f"F11_{mach}_{theta}_{n}{note}", stream(mach, n, (0, 0), (1.6, 1.6), end, walls + body), only="fluid", threads=threads), beta, p2
+    lower, upper, sides = (0, 0), (1.6, 1.6), ("outflow", "outflow")
+    if ramp:
+        lower, upper, sides = (0, 0.1037), (1.6, 1.6037), ("wall", "outflow")
+        corners = [[x0, 0.1037, 0.0], [x0, -1.0, 0.0], [x0 + 3, -1.0, 0.0], [x0 + 3, 0.1037 + 3 * math.tan(math.radians(theta)), 0.0]]
+        body = f'[[fluid.body]]\nname = "ramp"\nshape = {{kind = "prism", points = {corners}}}\n'
+    sides = f'x_lower = "inflow", x_upper = "outflow", y_lower = "{sides[0]}", y_upper = "{sides[1]}"'
+    return run(f"F11_{mach}_{theta}_{n}{note}", stream(mach, n, lower, upper, end, walls + body, sides), only="fluid", threads=threads), beta, p2
 
 
 @case("F11")
@@ -57,10 +64,10 @@ def f11():
     yield from wedges()
 
 
-def wedges(walls="", note=""):
+def wedges(walls="", note="", ramp=False):
     n, x0 = 100, 0.203
     for mach, theta in ((2, 10), (2, 20), (3, 20), (5, 20)):
-        result, beta, p2 = wedge(mach, theta, n, x0, walls=walls, note=note)
+        result, beta, p2 = wedge(mach, theta, n, x0, walls=walls, note=note, ramp=ramp)
         x, y, p = picture(result, "pressure")
         crossing, columns = [], []
         for i in np.flatnonzero((x > x0 + 0.4) & (x < 1.4)):
