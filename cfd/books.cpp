@@ -27,8 +27,8 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
   const int cells = m.forest.shape().cells();
   parallel_for_dynamic(int64_t(blocks.size()), [&](int64_t n) {
     const int b = blocks[size_t(n)];
-    const std::vector<uint8_t> blocked = blocked_cells(m, b);
     const std::vector<double> open = open_volumes(m, b);
+    const std::vector<uint8_t> blocked = open.empty() ? blocked_cells(m, b) : std::vector<uint8_t>();
     FluidSums sum;
     if (m.forest.shape().radial()) {
       per_block_[size_t(b)] = shells(m, b);
@@ -39,7 +39,7 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
       const double* U = m.state.block(b, q);
       Pack packs(0.0);
       int c = 0;
-      if (blocked.empty())
+      if (blocked.empty() && open.empty())
         for (; c + Pack::size <= cells; c += Pack::size) packs += Pack::load(U + c);
       for (int l = 0; l < Pack::size; ++l) sum.U[q] += packs[l];
       for (; c < cells; ++c)

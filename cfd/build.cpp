@@ -266,11 +266,18 @@ std::vector<double> open_volumes(const Model& m, int block) {
   std::vector<double> open;
   const CutCells* cut = m.walls ? m.walls->cut() : nullptr;
   const Index3 first = m.forest.first_finest(block);
-  if (!cut || !cut->near(first)) return open;
+  if (!cut || m.forest.level(block) != m.forest.levels() || !cut->near(first)) return open;
   const BlockShape& s = m.forest.shape();
   for (int k = 0; k < s.n[2]; ++k)
-    for (int j = 0; j < s.n[1]; ++j)
-      for (int i = 0; i < s.n[0]; ++i) open.push_back(cut->volume({first[0] + i, first[1] + j, first[2] + k}));
+    for (int j = 0; j < s.n[1]; ++j) {
+      double before = -1;  // cells side by side that are not listed are all open or all closed
+      for (int i = 0; i < s.n[0]; ++i) {
+        const Index3 c{first[0] + i, first[1] + j, first[2] + k};
+        const bool listed = cut->find(c) >= 0;
+        open.push_back(!listed && before >= 0 ? before : cut->volume(c));
+        before = listed ? -1 : open.back();
+      }
+    }
   return open;
 }
 
@@ -278,9 +285,8 @@ std::vector<uint8_t> blocked_cells(const Model& m, int block) {
   std::vector<uint8_t> blocked;
   if (!m.walls) return blocked;
   if (const CutCells* cut = m.walls->cut()) {
-    if (cut->near(m.forest.first_finest(block)))
-      for (const double open : open_volumes(m, block)) blocked.push_back(!(open > 0));
-    else if (cut->closed(m.forest.first_finest(block)))
+    for (const double open : open_volumes(m, block)) blocked.push_back(!(open > 0));
+    if (blocked.empty() && cut->closed(m.forest.first_finest(block)))
       blocked.assign(size_t(m.forest.shape().cells()), 1);
     return blocked;
   }

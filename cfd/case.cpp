@@ -152,7 +152,6 @@ void FluidCase::check_cut_cells() const {
   };
   const auto is_gas = [](const auto& e) { return e.constant_reference && e.covolume() == 0; };
   if (material.size() != 1 || !std::visit(is_gas, *material[0].eos)) fail("one [[fluid.material]], an ideal or stiffened gas,");
-  if (amr) fail("no [fluid.amr]");
   if (walls.slits != "centre") fail("slits = \"centre\", cell faces being as open as they are,");
   for (const BodyCase& b : body)
     if (b.thin || std::holds_alternative<PlaneShape>(b.shape) || std::holds_alternative<PistonShape>(b.shape))

@@ -24,6 +24,15 @@ bool usable(const Medium& medium, const double (&U)[Cons::count]) {
   return finite && U[Cons::arho1] >= 0 && U[Cons::arho2] >= 0 && U[Cons::arho1] + U[Cons::arho2] >= medium.floors.rho;
 }
 
+/// Is a wall near any block of the finest level in cells [first, end)?
+bool any_near(const CutCells& cut, const Index3& first, const Index3& end, const Index3& block) {
+  for (int k = first[2]; k < end[2]; k += block[2])
+    for (int j = first[1]; j < end[1]; j += block[1])
+      for (int i = first[0]; i < end[0]; i += block[0])
+        if (cut.near({i, j, k})) return true;
+  return false;
+}
+
 }  // namespace
 
 Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
@@ -83,14 +92,15 @@ void Sweep::select(const State& s, double dt) {
                    end{first[0] + n[0], first[1] + n[1], first[2] + n[2]};
       const bool finest = forest_.level(b) == forest_.levels();
       // a coarser block is in metal or away from it (cfd/amr/criteria.h)
-      const bool met = walls_->cut() ? walls_->cut()->near(first) : walls_->near(first);
-      near_[size_t(b)] = finest && !met ? (walls_->cut() && walls_->cut()->closed(first) ? metal : far)
-                         : walls_->cut() ? near
-                         : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end)
-                             ? metal
-                         : finest ? near
-                                  : far;
-      if (near_[size_t(b)] == far && !finest && walls_->map().holds_any(first, end))
+      if (const CutCells* cut = walls_->cut())
+        near_[size_t(b)] = any_near(*cut, first, end, forest_.shape().n) ? near : cut->closed(first) ? metal : far;
+      else
+        near_[size_t(b)] = finest && !walls_->near(first) ? far
+                           : (finest || walls_->map().touches(first, end)) && walls_->map().all_blocked(first, end)
+                               ? metal
+                           : finest ? near
+                                    : far;
+      if (!finest && (near_[size_t(b)] == near || (near_[size_t(b)] == far && walls_->map().holds_any(first, end))))
         throw PhysicsError(fmt::format(
             "a wall reached a block of level {}, not the finest, at t = {:.9g} s: raise fluid.amr.wall_cells",
             forest_.level(b), s.t));

@@ -93,9 +93,11 @@ void CutCells::begin(const coupling::WetSurface& surface, const std::vector<Vec3
 void CutCells::check_room(const CutGeometry& g) const {
   const auto fail = [&](const CutVolume& c) {
     const Vec3 x = lattice_.centre(c.cell);
-    throw PhysicsError(fmt::format("bodies and gaps between walls with treatment = \"cut_cell\" are wider than two cells; near ({:.6g}, {:.6g}, {:.6g}) m one is not: use finer cells, or "
-                                   "\"half_riemann\"",
-                                   x.x, x.y, x.z));
+    throw PhysicsError(
+        fmt::format("bodies and gaps between walls with treatment = \"cut_cell\" are wider than two cells; near "
+                    "({:.6g}, {:.6g}, {:.6g}) m one is not: use finer cells, or "
+                    "\"half_riemann\"",
+                    x.x, x.y, x.z));
   };
   for (const CutVolume& c : g.cells()) {
     const Vec3 n = inward_of(c.area, lattice_);
@@ -185,10 +187,11 @@ void CutCells::mix(const Comm& comm, const std::function<bool(const double*)>& u
 }
 
 /// Volumes that can't stay as they came: cells that closed, are whole again or lost almost all give or take what is
-/// over, with the gas in it, to or from the largest cut cell beside them.
+/// over, with the gas in it, to or from the largest cut cell beside them; a whole one without any keeps it.
 void CutCells::settle() {
   const auto is_free = [&](const CutCell& c) {
-    return norm(c.inward) > 0 && c.volume_end > 1e-6 && c.volume1 > 0.5 * c.volume_end && c.volume1 < 0.5 * (1 + c.volume_end);
+    return norm(c.inward) > 0 && c.volume_end > 1e-6 && c.volume1 > 0.5 * c.volume_end &&
+           c.volume1 < 0.5 * (1 + c.volume_end);
   };
   for (size_t i = 0; i < list_.size(); ++i) {
     CutCell& c = list_[i];
@@ -201,6 +204,7 @@ void CutCells::settle() {
       const int n = find(at);
       if (n < 0) return;
       const CutCell& other = list_[size_t(n)];
+      if (goal > 0 && c.volume1 > 0.1 && !is_free(other)) return;  // it can wait
       const double size = other.volume1 / dot(offset, offset) * (is_free(other) ? 100 : 1);
       if (other.volume1 > std::max(lacks, 1e-3) && size > most) most = size, best = n;
     });
@@ -208,7 +212,9 @@ void CutCells::settle() {
     CutCell& other = list_[size_t(best)];
     Mean &mine = inside_[i], &its = inside_[size_t(best)];
     for (size_t q = 0; q < mine.size(); ++q) {
-      const double moved = goal == 0 ? -mine[q] : lacks > 0 ? lacks * its[q] / other.volume1 : lacks * mine[q] / c.volume1;
+      const double moved = goal == 0   ? -mine[q]
+                           : lacks > 0 ? lacks * its[q] / other.volume1
+                                       : lacks * mine[q] / c.volume1;
       mine[q] += moved, its[q] -= moved;
     }
     c.volume1 = goal, other.volume1 -= lacks;
@@ -222,7 +228,8 @@ void CutCells::choose_groups() {
     const CutCell& c = list_[i];
     if (!(c.volume1 > 0) || c.volume1 >= whole_enough || norm(c.inward) == 0) continue;
     size_t order[3] = {0, 1, 2};
-    std::stable_sort(order, order + 3, [&](size_t a, size_t b) { return std::abs(c.inward[int(a)]) > std::abs(c.inward[int(b)]); });
+    std::stable_sort(order, order + 3,
+                     [&](size_t a, size_t b) { return std::abs(c.inward[int(a)]) > std::abs(c.inward[int(b)]); });
     std::vector<Member> group{{int32_t(i), {}}};
     double volume = c.volume1;
     for (const size_t d : order) {
@@ -290,7 +297,7 @@ void CutCells::commit() {
   if (still_) return;
   volumes_.clear();
   for (const CutCell& c : list_)
-    if (c.cut && (end_.find(c.cell) || c.volume1 != c.volume_end)) volumes_[key(c.cell)] = c.volume1;
+    if (end_.find(c.cell) || c.volume1 != c.volume_end) volumes_[key(c.cell)] = c.volume1;
   begin_ = std::move(end_);
   x_ = x_end_;
 }

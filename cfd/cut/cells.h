@@ -27,17 +27,17 @@
 
 namespace bw::cfd {
 
-/// A listed cell: cut at some time of the step, or next to one that is.
+/// A listed cell: cut at some time of the step, or next to one that is. Volumes are parts of a whole cell.
 struct CutCell {
   Index3 cell{};
-  bool cut = false;        ///< at some time of the step, or of another volume than its geometry's
-  bool open_mid = true;    ///< without facets at mid-step: open?
-  double volume0 = 1;      ///< part of the cell that holds gas, at the step's begin
-  double volume1 = 1;      ///< and at its end
-  Vec3 centroid0, centroid1;  ///< in cell sizes from the lower corner
+  bool cut = false;                ///< at some time of the step, or of another volume than its geometry's
+  bool open_mid = true;            ///< without facets at mid-step: open?
+  double volume0 = 1;              ///< part of the cell that holds gas, at the step's begin
+  double volume1 = 1;              ///< and at its end
+  Vec3 centroid0, centroid1;       ///< in cell sizes from the lower corner
   const CutVolume* mid = nullptr;  ///< geometry at mid-step; nullptr: no facets
-  double volume_end = 1;   ///< of the geometry, at the end
-  Vec3 inward;             ///< into the fluid at the end; zero: no facets
+  double volume_end = 1;           ///< of the geometry, at the end
+  Vec3 inward;                     ///< into the fluid at the end; zero: no facets
 };
 
 class CutCells {
@@ -80,9 +80,7 @@ class CutCells {
 
  private:
   using Mean = std::array<double, GasCons::count>;
-  int64_t key(const Index3& c) const {
-    return (int64_t(c[2]) * lattice_.n[1] + c[1]) * lattice_.n[0] + c[0];
-  }
+  int64_t key(const Index3& c) const { return (int64_t(c[2]) * lattice_.n[1] + c[1]) * lattice_.n[0] + c[0]; }
   size_t block_number(const Index3& c) const {
     return (size_t(c[2] / block_[2]) * size_t(blocks_[1]) + size_t(c[1] / block_[1])) * size_t(blocks_[0]) +
            size_t(c[0] / block_[0]);
@@ -117,7 +115,7 @@ class CutCells {
     Vec3 offset;  ///< in cells
   };
   std::vector<std::vector<Member>> groups_;  ///< neighbourhoods of small cells, they themselves first
-  std::vector<int32_t> groups_with_;       ///< [place] how many neighbourhoods a cell is in, its own whole one included
+  std::vector<int32_t> groups_with_;  ///< [place] how many neighbourhoods a cell is in, its own whole one included
 };
 
 }  // namespace bw::cfd

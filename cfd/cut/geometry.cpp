@@ -13,8 +13,8 @@ namespace bw::cfd {
 
 namespace {
 
-constexpr double snap = 1e-11;    // in cell sizes: nodes so near to a grid plane lie in it
-constexpr double closed = 1e-7;   // by how much the sum along a column may miss
+constexpr double snap = 1e-11;     // in cell sizes: nodes so near to a grid plane lie in it
+constexpr double closed = 1e-7;    // by how much the sum along a column may miss
 constexpr double nothing = 1e-13;  // apertures and what they lack to be open
 
 /// A convex polygon in cell sizes.
@@ -41,7 +41,8 @@ Polygon clipped(const Polygon& p, int d, double at, double sign) {
   return r;
 }
 
-/// Splits polygons along the planes of a lattice. visit(polygon, cell): cells -1 and n of a direction reach to infinity.
+/// Splits polygons along the planes of a lattice. visit(polygon, cell): cells -1 and n of a direction reach to
+/// infinity.
 template <class Visit>
 class Splitter {
  public:
@@ -108,6 +109,66 @@ struct Part {
 
 double rounded(double open) { return std::abs(open) < nothing ? 0 : std::abs(1 - open) < nothing ? 1 : open; }
 
+/// Facets of a surface; inside: minus a multiple of the volume that it encloses, from its areas along `used`.
+std::vector<Part> parts_of(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                           const Lattice& lattice, int used, double& inside) {
+  std::vector<Vec3> X(x.size());
+  for (size_t i = 0; i < x.size(); ++i)
+    for (int d = 0; d < 3; ++d) {
+      X[i][d] = (x[i][d] - lattice.lower[d]) / lattice.h[d];
+      if (const double near = std::round(X[i][d]); std::abs(X[i][d] - near) < snap) X[i][d] = near;
+    }
+  std::vector<Part> parts;
+  for (size_t face = 0; face < surface.quads.size(); ++face) {
+    const auto& quad = surface.quads[face];
+    const bool triangle = quad[2] == quad[3];
+    const Vec3 v_mid =
+        triangle ? v[size_t(quad[2])]
+                 : 0.25 * ((v[size_t(quad[0])] + v[size_t(quad[2])]) + (v[size_t(quad[1])] + v[size_t(quad[3])]));
+    for_each_triangle(X, quad, [&](const Vec3& a, const Vec3& b, const Vec3& c, int node_a, int node_b) {
+      const Vec3 normal = cross(b - a, c - a);
+      const double square = dot(normal, normal);
+      if (!(square > 0)) return;
+      inside -= normal[used] * (a[used] + b[used] + c[used]);
+      const Vec3 v_a = v[size_t(quad[size_t(node_a)])], v_b = v[size_t(quad[size_t(node_b)])];
+      const auto keep = [&](const Polygon& p, const Index3& cell) {
+        const Vec3 origin{double(cell[0]), double(cell[1]), double(cell[2])};
+        const Moments m(p, origin);
+        if (!(norm(m.area) > 0)) return;
+        const Vec3 at = m.at + origin;
+        const double on_b = dot(cross(at - a, c - a), normal) / square,
+                     on_c = dot(cross(b - a, at - a), normal) / square;
+        parts.push_back({cell,
+                         {int32_t(face), -1.0 * m.area, m.at, (1 - on_b - on_c) * v_a + on_b * v_b + on_c * v_mid},
+                         m.squares});
+      };
+      Polygon p;
+      p.add(a), p.add(b), p.add(c);
+      Splitter(lattice, keep).split(p, normal);
+    });
+  }
+  return parts;
+}
+
+/// Volume and centroid; squares: sum over the facets of area_d <x_d^2>.
+void measure(CutVolume& c, const std::vector<CutFacet>& facets, const Vec3& squares, const Lattice& lattice, int used) {
+  c.volume = c.open[used][1];
+  Vec3 mean;
+  double whole = 0;
+  for (int32_t f = c.first; f < c.last; ++f) {
+    const CutFacet& part = facets[size_t(f)];
+    c.volume += part.area[used] * part.at[used];
+    mean += norm(part.area) * part.at;
+    whole += norm(part.area);
+  }
+  c.volume = std::clamp(rounded(c.volume), 0.0, 1.0);
+  c.centroid = {0.5, 0.5, 0.5};
+  for (int d = 0; d < 3; ++d)
+    if (lattice.active(d))
+      c.centroid[d] =
+          c.volume > 1e-6 ? std::clamp(0.5 * (c.open[d][1] + squares[d]) / c.volume, 0.0, 1.0) : mean[d] / whole;
+}
+
 }  // namespace
 
 int64_t CutGeometry::key(const Index3& c, int d) const {
@@ -121,44 +182,13 @@ int64_t CutGeometry::key(const Index3& c, int d) const {
 void CutGeometry::build(const coupling::WetSurface& surface, const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                         const Lattice& lattice) {
   lattice_ = lattice;
-  std::vector<Vec3> X(x.size());
-  for (size_t i = 0; i < x.size(); ++i)
-    for (int d = 0; d < 3; ++d) {
-      X[i][d] = (x[i][d] - lattice.lower[d]) / lattice.h[d];
-      if (const double near = std::round(X[i][d]); std::abs(X[i][d] - near) < snap) X[i][d] = near;
-    }
   int used = 0;
   while (used < 2 && !lattice.active(used)) ++used;
-  std::vector<Part> parts;
   double inside = 0;
-  for (size_t face = 0; face < surface.quads.size(); ++face) {
-    const auto& quad = surface.quads[face];
-    const bool triangle = quad[2] == quad[3];
-    const Vec3 v_mid = triangle ? v[size_t(quad[2])]
-                                : 0.25 * ((v[size_t(quad[0])] + v[size_t(quad[2])]) + (v[size_t(quad[1])] + v[size_t(quad[3])]));
-    for_each_triangle(X, quad, [&](const Vec3& a, const Vec3& b, const Vec3& c, int node_a, int node_b) {
-      const Vec3 normal = cross(b - a, c - a);
-      const double square = dot(normal, normal);
-      if (!(square > 0)) return;
-      inside -= normal[used] * (a[used] + b[used] + c[used]);
-      const Vec3 v_a = v[size_t(quad[size_t(node_a)])], v_b = v[size_t(quad[size_t(node_b)])];
-      const auto keep = [&](const Polygon& p, const Index3& cell) {
-        const Vec3 origin{double(cell[0]), double(cell[1]), double(cell[2])};
-        const Moments m(p, origin);
-        if (!(norm(m.area) > 0)) return;
-        const Vec3 at = m.at + origin;
-        const double on_b = dot(cross(at - a, c - a), normal) / square, on_c = dot(cross(b - a, at - a), normal) / square;
-        parts.push_back({cell,
-                         {int32_t(face), -1.0 * m.area, m.at, (1 - on_b - on_c) * v_a + on_b * v_b + on_c * v_mid},
-                         m.squares});
-      };
-      Polygon p;
-      p.add(a), p.add(b), p.add(c);
-      Splitter(lattice_, keep).split(p, normal);
-    });
-  }
+  std::vector<Part> parts = parts_of(surface, x, v, lattice, used, inside);
   outside_ = inside < 0 ? 1 : 0;
-  std::stable_sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) { return key(a.cell, 0) < key(b.cell, 0); });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](const Part& a, const Part& b) { return key(a.cell, 0) < key(b.cell, 0); });
   facets_.clear();
   all_.clear();
   std::vector<Vec3> squares;  // [all_] sum of area_d <x_d^2>
@@ -181,24 +211,7 @@ void CutGeometry::build(const coupling::WetSurface& surface, const std::vector<V
     bool within = true;
     for (size_t d = 0; d < 3; ++d) within = within && c.cell[d] >= 0 && c.cell[d] < lattice.n[d];
     if (!within) continue;
-    c.volume = c.open[used][1];
-    Vec3 mean;
-    for (int32_t f = c.first; f < c.last; ++f) {
-      const CutFacet& part = facets_[size_t(f)];
-      c.volume += part.area[used] * part.at[used];
-      mean += norm(part.area) * part.at;
-    }
-    c.volume = std::clamp(rounded(c.volume), 0.0, 1.0);
-    c.centroid = {0.5, 0.5, 0.5};
-    for (int d = 0; d < 3; ++d)
-      if (lattice.active(d) && c.volume > 1e-6)
-        c.centroid[d] = std::clamp(0.5 * (c.open[d][1] + squares[n][d]) / c.volume, 0.0, 1.0);
-    if (c.volume <= 1e-6) {
-      double whole = 0;
-      for (int32_t f = c.first; f < c.last; ++f) whole += norm(facets_[size_t(f)].area);
-      for (int d = 0; d < 3; ++d)
-        if (lattice.active(d)) c.centroid[d] = mean[d] / whole;
-    }
+    measure(c, facets_, squares[n], lattice, used);
     cells_.push_back(c);
   }
 }
@@ -217,7 +230,10 @@ void CutGeometry::march(int d, std::vector<CutVolume>& all) {
   const int64_t length = lattice_.n[size_t(d)] + 2;
   const auto fail = [&](const CutVolume& c) {
     const Vec3 x = lattice_.centre(c.cell);
-    throw PhysicsError(fmt::format("walls with treatment = \"cut_cell\" are closed and don't overlap; near ({:.6g}, {:.6g}, {:.6g}) m these do or are not", x.x, x.y, x.z));
+    throw PhysicsError(
+        fmt::format("walls with treatment = \"cut_cell\" are closed and don't overlap; near ({:.6g}, {:.6g}, {:.6g}) m "
+                    "these do or are not",
+                    x.x, x.y, x.z));
   };
   for (size_t begin = 0; begin < column.size();) {
     double open = outside_;
@@ -235,9 +251,9 @@ void CutGeometry::march(int d, std::vector<CutVolume>& all) {
         if (open < -closed || open > 1 + closed) fail(c);
         c.open[d][upper] = rounded(open);
         for (int e = 0; e < 3; ++e)
-          c.face_at[d][upper][e] = e == d                      ? double(upper)
+          c.face_at[d][upper][e] = e == d                              ? double(upper)
                                    : lattice_.active(e) && open > 1e-9 ? std::clamp(moment[e] / open, 0.0, 1.0)
-                                                                : 0.5;
+                                                                       : 0.5;
       }
     }
     if (std::abs(open - outside_) > closed) fail(all[size_t(column[n - 1].cell)]);
@@ -256,8 +272,10 @@ bool CutGeometry::open(const Index3& cell) const {
     const auto& column = column_[d];
     if (column.empty()) continue;
     const int64_t k = key(cell, d), length = lattice_.n[size_t(d)] + 2;
-    const auto above = std::lower_bound(column.begin(), column.end(), k, [](const Place& p, int64_t key) { return p.key < key; });
-    if (above != column.begin() && (above - 1)->key / length == k / length) return all_[size_t((above - 1)->cell)].open[d][1] > 0.5;
+    const auto above =
+        std::lower_bound(column.begin(), column.end(), k, [](const Place& p, int64_t key) { return p.key < key; });
+    if (above != column.begin() && (above - 1)->key / length == k / length)
+      return all_[size_t((above - 1)->cell)].open[d][1] > 0.5;
     if (above != column.end() && above->key / length == k / length) return all_[size_t(above->cell)].open[d][0] > 0.5;
   }
   return outside_ > 0;

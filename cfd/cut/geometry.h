@@ -24,11 +24,11 @@ struct CutFacet {
 /// A cell with facets. Places as in CutFacet.
 struct CutVolume {
   Index3 cell{};
-  double volume = 0;     ///< open part of the cell
-  Vec3 centroid;         ///< of that part
-  double open[3][2]{};   ///< [d][upper] open part of the cell's face
-  Vec3 face_at[3][2]{};  ///< centroids of these parts
-  Vec3 area;             ///< sum over the facets
+  double volume = 0;            ///< open part of the cell
+  Vec3 centroid;                ///< of that part
+  double open[3][2]{};          ///< [d][upper] open part of the cell's face
+  Vec3 face_at[3][2]{};         ///< centroids of these parts
+  Vec3 area;                    ///< sum over the facets
   int32_t first = 0, last = 0;  ///< [first, last) of facets()
 };
 

@@ -8,7 +8,7 @@ namespace bw::cfd {
 
 namespace {
 
-constexpr double empty = 1e-9;       // volumes below hold no gas to speak of
+constexpr double empty = 1e-9;        // volumes below hold no gas to speak of
 constexpr double least_open = 1e-12;  // apertures
 
 /// Solves the symmetric A x = b of m unknowns in place; unknowns that the data leave open become 0.
@@ -30,6 +30,32 @@ void solve(double (&A)[3][3], double (&b)[3][CutCellKernel::n], int m) {
       for (int l = i + 1; l < m; ++l) b[i][q] -= A[i][l] * b[l][q];
       b[i][q] = known[i] ? b[i][q] / A[i][i] : 0;
     }
+}
+
+/// A connected neighbour along the grid.
+struct Beside {
+  Vec3 away;  // centroid to centroid, in cells
+  double differs[CutCellKernel::n];
+  bool is_there = false;
+};
+
+/// Along each direction not more than twice what leads to either neighbour, and nothing where these disagree.
+void limit(const Beside (&beside)[3][2], double (&slope)[3][CutCellKernel::n]) {
+  double limited[3][CutCellKernel::n];
+  for (int d = 0; d < 3; ++d)
+    for (int q = 0; q < CutCellKernel::n; ++q) {
+      double s = slope[d][q];
+      for (const Beside& known : beside[d]) {
+        if (!known.is_there) continue;
+        double differs = known.differs[q];
+        for (int e = 0; e < 3; ++e)
+          if (e != d) differs -= slope[e][q] * known.away[e];
+        const double most = 2 * differs / known.away[d];
+        s = s > 0 ? std::clamp(most, 0.0, s) : std::clamp(most, s, 0.0);
+      }
+      limited[d][q] = s;
+    }
+  for (int d = 0; d < 3; ++d) std::copy_n(limited[d], CutCellKernel::n, slope[d]);
 }
 
 }  // namespace
@@ -56,7 +82,9 @@ double CutCellKernel::open(const Cell& low, int d) const {
 
 bool CutCellKernel::in_patch(const Cell& x, int margin) const {
   for (int d = 0; d < 3; ++d)
-    if (shape_.used[size_t(d)] && (x.at[size_t(d)] < margin - g_[d] || x.at[size_t(d)] >= shape_.n[size_t(d)] + g_[d] - margin)) return false;
+    if (shape_.used[size_t(d)] &&
+        (x.at[size_t(d)] < margin - g_[d] || x.at[size_t(d)] >= shape_.n[size_t(d)] + g_[d] - margin))
+      return false;
   return true;
 }
 
@@ -69,7 +97,8 @@ void CutCellKernel::look_up(const Index3& first_cell) {
         const Index3 c{first_cell[0] + i, first_cell[1] + j, first_cell[2] + k};
         int32_t& slot = slot_[size_t(cell_at(k, j, i).c)];
         slot = cells_->find(c);
-        if (slot == plain) slot = before == plain || before == closed ? before : cells_->closed(c) ? int32_t(closed) : int32_t(plain);
+        if (slot == plain)
+          slot = before == plain || before == closed ? before : cells_->closed(c) ? int32_t(closed) : int32_t(plain);
         before = slot;
       }
     }
@@ -106,18 +135,16 @@ void CutCellKernel::slopes_of_squares(const Cell& x, Predicted& r) const {
   for (auto& slope : r.slope) std::fill(slope, slope + n, 0.0);
   if (!(volume(x) > 0) || !in_patch(x, 1)) return;
   const State own = read(x);
-  struct Known {
-    Vec3 away;  // centroid to centroid
-    double differs[n];
-    bool is_there = false;
-  } beside[3][2];
+  Beside beside[3][2];
   double A[3][3] = {}, b[3][n] = {};
   int used[3], m = 0;
   for (int d = 0; d < 3; ++d)
     if (shape_.used[size_t(d)]) used[m++] = d;
   // cells that open faces lead to, on the shortest way in any order of directions
-  const auto opens = [&](const Cell& from, int d, int by) { return open(by > 0 ? from : moved(from, d, -1), d) > least_open; };
-  const auto reached = [&](const auto& self, const Cell& from, const int (&by)[3]) -> bool {
+  const auto opens = [&](const Cell& from, int d, int by) {
+    return open(by > 0 ? from : moved(from, d, -1), d) > least_open;
+  };
+  const auto reached = [&](const auto& self, const Cell& from, const int(&by)[3]) -> bool {
     bool arrived = true;
     for (int d = 0; d < 3; ++d) {
       if (!by[d]) continue;
@@ -150,7 +177,7 @@ void CutCellKernel::slopes_of_squares(const Cell& x, Predicted& r) const {
         if (steps == 1)
           for (int d = 0; d < 3; ++d)
             if (by[d]) {
-              Known& known = beside[d][by[d] > 0];
+              Beside& known = beside[d][by[d] > 0];
               known.away = away, known.is_there = std::abs(away[d]) > 0.2;
               for (int q = 0; q < n; ++q) known.differs[q] = w[size_t(q)] - own[size_t(q)];
             }
@@ -158,22 +185,7 @@ void CutCellKernel::slopes_of_squares(const Cell& x, Predicted& r) const {
   solve(A, b, m);
   for (int a = 0; a < m; ++a)
     for (int q = 0; q < n; ++q) r.slope[used[a]][q] = b[a][q];
-  // along each direction not more than twice what leads to either neighbour, and nothing where these disagree
-  double limited[3][n];
-  for (int d = 0; d < 3; ++d)
-    for (int q = 0; q < n; ++q) {
-      double s = r.slope[d][q];
-      for (const Known& known : beside[d]) {
-        if (!known.is_there) continue;
-        double differs = known.differs[q];
-        for (int e = 0; e < 3; ++e)
-          if (e != d) differs -= r.slope[e][q] * known.away[e];
-        const double most = 2 * differs / known.away[d];
-        s = s > 0 ? std::clamp(most, 0.0, s) : std::clamp(most, s, 0.0);
-      }
-      limited[d][q] = s;
-    }
-  for (int d = 0; d < 3; ++d) std::copy_n(limited[d], n, r.slope[d]);
+  limit(beside, r.slope);
 }
 
 /// A cell that held no gas yet: the line of the nearest connected cell that does.
@@ -265,7 +277,8 @@ CutCellKernel::Flux CutCellKernel::face(const Cell& low, const Cell& high, int d
   const Cell& outer = upper ? high : low;
   if (slot_[size_t(outer.c)] == beyond && special) {
     State inner = upper ? on_lines(predicted(low), at) : on_lines(predicted(high), from_high), other = read(outer);
-    if (rules_[size_t(2 * d + upper)] == GhostRule::mirror) other = inner, other[size_t(Gas::v + d)] = -inner[size_t(Gas::v + d)];
+    if (rules_[size_t(2 * d + upper)] == GhostRule::mirror)
+      other = inner, other[size_t(Gas::v + d)] = -inner[size_t(Gas::v + d)];
     L = upper ? inner : other, R = upper ? other : inner;
   } else {
     L = on_lines(predicted(low), at);
@@ -300,7 +313,8 @@ void CutCellKernel::finish(const Cell& x, const double* U, const Flux& sum, cons
   const CutCell& c = cells_->cells()[place];
   CutCells::Content& content = cells_->contents()[place];
   const size_t cells = size_t(shape_.cells()), at = shape_.at(x.at[2], x.at[1], x.at[0]);
-  for (size_t q = 0; q < sum.size(); ++q) content.U[q] = (c.volume0 > 0 ? c.volume0 * U[size_t(flow.cons_row(int(q))) * cells + at] : 0) + sum[q];
+  for (size_t q = 0; q < sum.size(); ++q)
+    content.U[q] = (c.volume0 > 0 ? c.volume0 * U[size_t(flow.cons_row(int(q))) * cells + at] : 0) + sum[q];
   const Predicted own = predicted(x);
   const Vec3 h = shape_.h, face{h.y * h.z, h.z * h.x, h.x * h.y};
   if (c.mid)
@@ -332,11 +346,11 @@ void CutCellKernel::finish(const Cell& x, const double* U, const Flux& sum, cons
   }
 }
 
-void CutCellKernel::correct(const Patch& patch, const GasFlow& flow, double dt, const Index3& first_cell, const double* U,
-                            CutCells& cells, const GhostRules& rules, BlockChange& change, WallExchange& exchange,
-                            std::vector<LinkLoad>& links, std::vector<uint8_t>& skipped) {
+void CutCellKernel::correct(const Patch& patch, const GasFlow& flow, double dt, const Index3& first_cell,
+                            const double* U, CutCells& cells, const GhostRules& rules, BlockChange& change,
+                            WallExchange& exchange, std::vector<LinkLoad>& links, std::vector<uint8_t>& skipped) {
   patch_ = &patch, flow_ = &flow, cells_ = &cells, exchange_ = &exchange, links_ = &links;
-  rules_ = rules, origin_ = first_cell, dt_ = dt;
+  rules_ = rules, dt_ = dt;
   gas_.emplace(Gas{{flow.over_G, flow.Pi}});
   for (int d = 0; d < 3; ++d) {
     lambda_[d] = shape_.used[size_t(d)] ? dt / shape_.h[d] : 0;

@@ -27,8 +27,8 @@ class CutCellKernel {
 
   explicit CutCellKernel(const BlockShape& shape);
 
-  /// After BlockKernel::advance with the same patch, flow and dt. U: the block's state, [variable][cell]. skipped: [cell]
-  /// set to 1 in cells whose end of step CutCells makes, and in closed ones. exchange and links are added to.
+  /// After BlockKernel::advance with the same patch, flow and dt. U: the block's state, [variable][cell]. skipped:
+  /// [cell] set to 1 in cells whose end of step CutCells makes, and in closed ones. exchange and links are added to.
   void correct(const Patch& patch, const GasFlow& flow, double dt, const Index3& first_cell, const double* U,
                CutCells& cells, const GhostRules& rules, BlockChange& change, WallExchange& exchange,
                std::vector<LinkLoad>& links, std::vector<uint8_t>& skipped);
@@ -89,7 +89,6 @@ class CutCellKernel {
   GhostRules rules_{};
   std::optional<Gas> gas_;
   const double* row_[n] = {};
-  Index3 origin_{};
   WallExchange* exchange_ = nullptr;
   std::vector<LinkLoad>* links_ = nullptr;
   std::vector<int32_t> slot_;     ///< [patch cell] place in cells(), or plain, beyond, closed

@@ -32,7 +32,7 @@ CHARGE = ("[time]\nend = \"24 us\"\n" + output("8 us", "1 us")
 # a box that turns behind a blast, across blocks and a periodic side; one checkpoint on the way
 CUT = ("[time]\nend = \"1 ms\"\nLIMIT" + output("0.5 ms", "0 s") + '[checkpoint]\nevery_steps = 20\n'
        + "[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, 0.03125]\ncells = [32, 32, 1]\n"
-       + 'boundary = {y_lower = "periodic", y_upper = "periodic"}\n[fluid.walls]\ntreatment = "cut_cell"\n'
+       + 'boundary = {y_lower = "periodic", y_upper = "periodic"}\n[fluid.amr]\nlevels = 1\nblock = 8\nevery = 3\n[fluid.walls]\ntreatment = "cut_cell"\n'
        + '[[fluid.material]]\nname = "air"\nlibrary = "air"\n'
        + '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "air"\ndensity = 1.225\npressure = 101325.0\n'
        + '[[fluid.region]]\nshape = {kind = "cylinder", start = [0.2, 0.6, -1], end = [0.2, 0.6, 1], radius = 0.12}\nmaterial = "air"\ndensity = 5.0\npressure = 1e6\n'

@@ -130,7 +130,7 @@ CASES = {
     "free body with mass and density": ("cfd", FLUID + FREE.format("density = 1, mass = 1"), r"case.toml:\d+:.*density.*not both", {}),
     "free body in a direction that isn't": ("cfd", FLUID + FREE.format('mass = 1, fixed = ["x", "turn"]'), r"fixed.*turn_x", {}),
     "free body that flies where it can't": ("cfd", FLUID + FREE.format("mass = 1, plane = true, velocity = [0, 0, 1]"), r"velocity", {}),
-    "cut cells with levels": ("cfd", FLUID + '[fluid.amr]\nlevels = 1\n[fluid.walls]\ntreatment = "cut_cell"\n', r"case.toml:\d+:.*no \[fluid.amr\]", {}),
+    "cut cells of two materials": ("cfd", FLUID + '[fluid.walls]\ntreatment = "cut_cell"\n[[fluid.material]]\nname = "water"\nlibrary = "water"\n', r"case.toml:\d+:.*one \[\[fluid.material\]\]", {}),
     "cut cells with slits": ("cfd", FLUID + '[fluid.walls]\ntreatment = "cut_cell"\nslits = "area"\n', r"case.toml:\d+:.*centre", {}),
     "cut cells behind an open piston": ("cfd", FLUID + '[fluid.walls]\ntreatment = "cut_cell"\n[[fluid.body]]\nname = "p"\nshape = {kind = "piston", point = [0.05, 0, 0]}\n',
                                         r"case.toml:\d+:.*closed body", {}),

@@ -72,7 +72,8 @@ TEST(CutCells, FacesAndFacetsCloseEveryCell) {
     moment += c.volume * (c.cell[0] + c.centroid.x) / 16;
   }
   for (int n = 0; n < 16 * 16 * 16; ++n)
-    if (const Index3 c{n % 16, n / 16 % 16, n / 256}; !room.cut.find(c) && room.cut.open(c)) moment += (c[0] + 0.5) / 16;
+    if (const Index3 c{n % 16, n / 16 % 16, n / 256}; !room.cut.find(c) && room.cut.open(c))
+      moment += (c[0] + 0.5) / 16;
   // first moment of the room without the ball, whose centroid is its centre
   EXPECT_NEAR(moment / 4096, 0.5 - (1 - room.volume()) * 0.47, 1e-12);
 }
@@ -82,7 +83,8 @@ TEST(CutCells, OpenOrOverlappingWallsAreRefused) {
   s.quads.pop_back();
   EXPECT_THROW(Room(s, {8, 8, 8}), PhysicsError);
   coupling::WetSurface a = box({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}), b = box({0.4, 0.4, 0.4}, {0.8, 0.8, 0.8});
-  for (const auto& q : b.quads) a.quads.push_back({q[0] + int(a.x.size()), q[1] + int(a.x.size()), q[2] + int(a.x.size()), q[3] + int(a.x.size())});
+  for (const auto& q : b.quads)
+    a.quads.push_back({q[0] + int(a.x.size()), q[1] + int(a.x.size()), q[2] + int(a.x.size()), q[3] + int(a.x.size())});
   a.x.insert(a.x.end(), b.x.begin(), b.x.end());
   EXPECT_THROW(Room(a, {8, 8, 8}), PhysicsError);
 }
@@ -143,13 +145,17 @@ class Ride : public WallMotion {
 
 std::string gas_in_box(const std::string& boundary, const std::string& regions) {
   return "[fluid]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [16, 16, 16]\n" + boundary +
-         "[fluid.walls]\ntreatment = \"cut_cell\"\n[[fluid.material]]\nname = \"air\"\neos = {kind = \"ideal_gas\", gamma = 1.4}\n"
-         "[[fluid.region]]\nshape = {kind = \"everywhere\"}\nmaterial = \"air\"\ndensity = 1\npressure = 1\n" + regions;
+         "[fluid.walls]\ntreatment = \"cut_cell\"\n[[fluid.material]]\nname = \"air\"\neos = {kind = \"ideal_gas\", "
+         "gamma = 1.4}\n"
+         "[[fluid.region]]\nshape = {kind = \"everywhere\"}\nmaterial = \"air\"\ndensity = 1\npressure = 1\n" +
+         regions;
 }
 
 TEST(CutCells, ABoxKeepsMassMomentumAndEnergyAroundABodyThatTurns) {
   coupling::WetSurface s = box({0.3, 0.3, 0.3}, {0.7, 0.6, 0.65}, 4);
-  Ride ride(gas_in_box("", "[[fluid.region]]\nshape = {kind = \"sphere\", centre = [0.1, 0.2, 0.3], radius = 0.25}\nmaterial = \"air\"\ndensity = 3\npressure = 5\n"),
+  Ride ride(gas_in_box("",
+                       "[[fluid.region]]\nshape = {kind = \"sphere\", centre = [0.1, 0.2, 0.3], radius = "
+                       "0.25}\nmaterial = \"air\"\ndensity = 3\npressure = 5\n"),
             s, {0.3, -0.2, 0.1}, 2);
   ride.steps(30);
   const FluidSums end = ride.books.sums(ride.m);
@@ -167,8 +173,10 @@ TEST(CutCells, ABoxKeepsMassMomentumAndEnergyAroundABodyThatTurns) {
 }
 
 TEST(CutCells, GasThatMovesWithABodyDoesNotFeelIt) {
-  const std::string boundary = "boundary = {x_lower = \"periodic\", x_upper = \"periodic\", y_lower = \"periodic\", y_upper = \"periodic\", z_lower = "
-                               "\"periodic\", z_upper = \"periodic\"}\n";
+  const std::string boundary =
+      "boundary = {x_lower = \"periodic\", x_upper = \"periodic\", y_lower = \"periodic\", y_upper = \"periodic\", "
+      "z_lower = "
+      "\"periodic\", z_upper = \"periodic\"}\n";
   coupling::WetSurface s = box({0.3, 0.3, 0.3}, {0.7, 0.6, 0.65}, 4);
   turn(s, 0.4, 0.3);
   Ride ride(gas_in_box(boundary, "velocity = [0.7, 0.4, -0.3]\n"), s, {0.7, 0.4, -0.3}, 0);
