@@ -46,8 +46,8 @@ Stepped window_steps(Model& m, Sweep& sweep, Books& books, const WallMotion& wal
   coupling::Loads& loads = whole.loads;
   const auto step_from = [&](double t, const WallMotion& motion) {
     const double next = std::min(window.t1_max, next_output(t)), want = wanted(t, next);
-    const bool mean = window.mean_pressure || want < window.t1_max - t;  // the pressure at the end is that of the last step
-    whole.dt = step(m, sweep, books, want, &motion, mean, &loads);
+    const bool goes_on = window.fixed && want < window.t1_max - t;  // then the pressure at its end is not asked for
+    whole.dt = step(m, sweep, books, want, &motion, window.mean_pressure || goes_on, &loads);
     m.state.t = whole.dt == want && want >= next - t ? next : t + whole.dt;
   };
   if (!window.fixed) {

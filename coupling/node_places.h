@@ -17,7 +17,14 @@ class NodePlaces {
   NodePlaces() = default;
   explicit NodePlaces(const WetSurface& surface) : sorted_(surface.node_id.size()) {
     for (size_t i = 0; i < sorted_.size(); ++i) sorted_[i] = {surface.node_id[i], int64_t(i)};
-    if (!std::is_sorted(sorted_.begin(), sorted_.end())) std::sort(sorted_.begin(), sorted_.end());
+    in_order_ = std::is_sorted(sorted_.begin(), sorted_.end());
+    if (!in_order_) std::sort(sorted_.begin(), sorted_.end());
+  }
+  /// Are the nodes of that surface these, in the same places?
+  bool are_of(const WetSurface& surface) const {
+    const auto is_place = [](const std::pair<int64_t, int64_t>& a, const int64_t& id) { return a.first == id; };
+    return in_order_ &&
+           std::equal(sorted_.begin(), sorted_.end(), surface.node_id.begin(), surface.node_id.end(), is_place);
   }
   /// In a checkpoint.
   template <class A>
@@ -51,6 +58,7 @@ class NodePlaces {
 
  private:
   std::vector<std::pair<int64_t, int64_t>> sorted_;  // id, place
+  bool in_order_ = false;                            // places ascend with ids
   mutable size_t hint_ = 0;                          // the last one found
 };
 

@@ -46,13 +46,14 @@ class WallPredictor {
  private:
   /// The last velocities of its nodes.
   void renew(const WetSurface& surface) {
+    topo_version_ = surface.topo_version;
+    if (places_.are_of(surface)) return;  // faces have changed, nodes have not
     NodePlaces now(surface);
     std::vector<Vec3> last = surface.v;
     for (size_t i = 0; i < last.size(); ++i)
       if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0) last[i] = v_last_[size_t(old)];
     v_last_ = std::move(last);
     places_ = std::move(now);
-    topo_version_ = surface.topo_version;
   }
 
   Scheme scheme_;

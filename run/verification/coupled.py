@@ -91,6 +91,15 @@ def oscillation(t, x, known):
     return frequency, [fit(part, [frequency] + known[1:])[0] for part in (t <= third, t >= 2 * third)]
 
 
+def oscillates(where, result, modes, periods):
+    """A run of closed_column() against the lowest mode: frequency, growth of the amplitude."""
+    table = fields.history(result.directory / "solid_history.csv")
+    frequency, (start, end) = oscillation(table["t"], probe(table, "wall", "x"), modes)
+    yield close(f"{where}: frequency [Hz]", frequency, modes[0], 0.01, result.seconds)
+    yield at_most(f"{where}: growth of the amplitude, last third of {periods} periods over the first", max(0.0, end / start - 1), 0.02)
+    yield at_least(f"{where}: that amplitude over the first (reported)", end / start, 0.0)
+
+
 @case("C2")
 def c2():
     """Piston before a closed column of air, free: frequency and growth of the amplitude over the periods; also a piston lighter than the gas"""
@@ -98,11 +107,7 @@ def c2():
         modes = reference.gas_column_modes(mass, 0.0)
         for scheme in schemes:
             result = run(f"C2_{scheme}_{mass:g}", closed_column(scheme, mass, 2 * np.pi * modes[0] * 1e-4, periods / modes[0]))
-            table = fields.history(result.directory / "solid_history.csv")
-            frequency, (start, end) = oscillation(table["t"], probe(table, "wall", "x"), modes)
-            yield close(f"{scheme}, {mass:g} kg/m^2: frequency [Hz]", frequency, modes[0], 0.01, result.seconds)
-            yield at_most(f"{scheme}, {mass:g} kg/m^2: growth of the amplitude, last third of {periods} periods over the first", max(0.0, end / start - 1), 0.02)
-            yield at_least(f"{scheme}, {mass:g} kg/m^2: that amplitude over the first (reported)", end / start, 0.0)
+            yield from oscillates(f"{scheme}, {mass:g} kg/m^2", result, modes, periods)
 
 
 @case("C2f")
