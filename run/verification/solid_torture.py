@@ -123,7 +123,7 @@ def t14():
     cube = ("[time]\nend = 1.0\nmax_steps = 1000000\n" + output("1 s", "1e-4 s")
             + body("cube", '{kind = "box", lower = ["-10 mm", "-10 mm", "-10 mm"], upper = ["10 mm", "10 mm", "10 mm"], cells = [2, 2, 2]}', STEEL, (30.0, 20.0, 10.0))
             + "motion = {spin = [300.0, 200.0, 500.0]}\n")
-    # leapfrog resonates where vibrations take a few steps (3 a period at 0.87 of the limit): slowly, by the strain; 0.65 keeps away from 3 and 4
+    # steps that swing with the vibration feed it: slowly, by the strain
     for name, text in (("ring", ring), ("ring, steps of 0.65", ring + '[solid.time_step]\nfixed = "180 ns"\n'), ("cube", cube)):
         result = run(f"T14_{name.replace(', ', '_').replace(' ', '_')}", text, only="solid", threads=1)
         table = history(result)
