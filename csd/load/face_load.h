@@ -10,20 +10,14 @@ namespace bw::csd {
 
 inline Vec3 centre_of(const std::array<Vec3, 4>& x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); }
 
-/// Integrals of N_a n dA over a bilinear quad (2x2 points are exact), n outward for a face of mesh.h's order [m^2].
-/// They are the derivatives of the enclosed volume by the nodes, so that p V is the potential of a constant pressure.
+/// Integrals of N_a n dA over a bilinear quad, n outward for a face of mesh.h's order [m^2]: with x = .. + s A + t B +
+/// s t C the area vector is A x B + s A x C + t C x B, and its product with N_a is integrated exactly. They are the
+/// derivatives of the enclosed volume by the nodes, so that p V is the potential of a constant pressure.
 inline std::array<Vec3, 4> area_shares(const std::array<Vec3, 4>& x) {
-  std::array<Vec3, 4> share{};
-  for (int g = 0; g < 4; ++g) {
-    const double s = g & 1 ? gauss : -gauss, t = g & 2 ? gauss : -gauss;
-    const double N[4] = {0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
-                         0.25 * (1 - s) * (1 + t)};
-    const Vec3 ds = 0.25 * ((1 - t) * (x[1] - x[0]) + (1 + t) * (x[2] - x[3]));
-    const Vec3 dt = 0.25 * ((1 - s) * (x[3] - x[0]) + (1 + s) * (x[2] - x[1]));
-    const Vec3 dA = cross(ds, dt);
-    for (size_t a = 0; a < 4; ++a) share[a] += N[a] * dA;
-  }
-  return share;
+  const Vec3 lower = x[1] - x[0], upper = x[2] - x[3];
+  const Vec3 A = 0.25 * (lower + upper), B = 0.25 * ((x[3] - x[0]) + (x[2] - x[1])), C = 0.25 * (upper - lower);
+  const Vec3 mean = cross(A, B), by_s = (1.0 / 3) * cross(A, C), by_t = (1.0 / 3) * cross(C, B);
+  return {mean - by_s - by_t, mean + by_s - by_t, mean + by_s + by_t, mean - by_s + by_t};
 }
 
 /// Adds the forces of the pressure p > 0 (compression positive: the one place in csd where a pressure becomes a force,

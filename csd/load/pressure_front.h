@@ -45,10 +45,12 @@ struct PressureFront {
     if (!k.is_manual()) place = k.where("faces");
   }
 
-  void select(const Mesh& mesh) { set_ = {mesh, face_sets(mesh, faces, place)}, profile_ = {behind, factors}; }
-  /// Pa, at a point.
+  void select(const Mesh& mesh) {
+    set_ = {mesh, face_sets(mesh, faces, place)}, profile_ = {behind, factors}, along_ = unit(axis);
+  }
+  /// Pa, at a point; after select.
   double pressure(const Vec3& x, double t) const {
-    const double d = speed * (t - start_time) - dot(x - start, unit(axis));
+    const double d = speed * (t - start_time) - dot(x - start, along_);
     if (t < start_time || d < 0) return 0;
     return peak * (profile_.times.empty() ? std::exp(-decay * d) : profile_.at(d));  // eq (18)
   }
@@ -64,6 +66,7 @@ struct PressureFront {
  private:
   LoadedFaces set_;
   Table profile_;  // factor by distance
+  Vec3 along_;     // unit
 };
 
 }  // namespace bw::csd

@@ -61,6 +61,7 @@ TEST(Loads, GoOverLoadedNodesAlone) {
   s.resize(mesh.X.size(), 0);
   s.x = mesh.X;
   for (size_t n = 0; n < s.v.size(); ++n) s.v[NodeId(int64_t(n))] = {1.0 + double(n % 7), double(n % 5), -2};
+  front.select(mesh);
   Loads loads(mesh, {front});
   EXPECT_EQ(loads.nodes().size(), 41 * 21u);
   const std::vector<Face> loaded = mesh.face_sets.at("y_lower");
