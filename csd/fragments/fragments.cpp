@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "common/parallel/loop.h"
@@ -52,35 +51,39 @@ bool Fragments::relabel(const Mesh& mesh, double t) {
     double volume = 0;
     int64_t gid = std::numeric_limits<int64_t>::max();  // lowest
   };
-  std::map<int32_t, Part> parts;  // by lowest element
+  std::vector<Part> parts;  // by lowest element
+  Field<int32_t, ElemId> part_of(size_t(mesh.elem_count()));
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {
     const ElemId e(i);
-    Part& part = parts.try_emplace(piece[e].value, Part{label_[e]}).first->second;
+    if (piece[e] == e) part_of[e] = int32_t(parts.size()), parts.push_back({label_[e]});
+    part_of[e] = part_of[piece[e]];
+    Part& part = parts[size_t(part_of[e])];
     part.volume += volume_[e];
     part.gid = std::min(part.gid, mesh.elem_gid[e]);
   }
   if (parts.size() == known_.size()) return false;
   std::vector<const Part*> heir(known_.size(), nullptr);  // of each fragment so far
   std::vector<std::pair<int64_t, int32_t>> order;         // (lowest gid, part)
-  for (const auto& [first, part] : parts) {
-    order.push_back({part.gid, first});
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
+    order.push_back({part.gid, int32_t(i)});
     if (part.old < 0) continue;
     const Part*& best = heir[size_t(part.old)];
     if (!best || part.volume > best->volume || (part.volume == best->volume && part.gid < best->gid)) best = &part;
   }
   std::sort(order.begin(), order.end());
-  std::map<int32_t, int32_t> label;
+  std::vector<int32_t> label(parts.size());
   const auto before = known_;
-  for (const auto& [gid, first] : order) {
-    const Part& part = parts.at(first);
+  for (const auto& [gid, i] : order) {
+    const Part& part = parts[size_t(i)];
     if (part.old >= 0 && heir[size_t(part.old)] == &part) {
-      label[first] = part.old;
+      label[size_t(i)] = part.old;
       continue;
     }
-    label[first] = int32_t(known_.size());
+    label[size_t(i)] = int32_t(known_.size());
     known_.push_back({next_id_++, part.old < 0 ? -1 : before[size_t(part.old)].id, t});
   }
-  for (int32_t e = 0; e < mesh.elem_count(); ++e) label_[ElemId(e)] = label.at(piece[ElemId(e)].value);
+  for (int32_t e = 0; e < mesh.elem_count(); ++e) label_[ElemId(e)] = label[size_t(part_of[ElemId(e)])];
   return true;
 }
 
