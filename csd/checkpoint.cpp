@@ -86,7 +86,7 @@ std::optional<Restart> open_restart(const Case& cs, const std::string& file_or_f
 std::string write_checkpoint(const Case& cs, Model& m, const Progressed& run, Output& out, Coupled* coupled) {
   const Timed timed("checkpoint");
   const Comm comm = comm_of(m);
-  if (const auto& ranks = m.physics.elements.ranks) ranks->complete(m.state);
+  complete(m);
   const std::string& folder = cs.run.output.directory;
   const std::string path = checkpoint_path(folder, program, m.state.step);
   CheckpointWriter file(path, {program, layout, case_hash(cs.file), m.state.step, m.state.t}, comm);

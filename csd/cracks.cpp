@@ -69,7 +69,13 @@ void Cracks::make_pieces(Model& m) {
   std::vector<ElemId> taken;
   opened_by_pieces_ += pieces_->advance(
       m.mesh, m.topology, m.state.t, broken, fail(),
-      [&](std::span<const ElemId> elems) { return ring_samples(m, elems); }, splits_, changed_, taken,
+      [&](std::span<const ElemId> elems) {
+        if (m.physics.rigid && std::any_of(elems.begin(), elems.end(),
+                                           [&](ElemId e) { return m.physics.rigid->is_rigid(m.mesh.hex[e][0]); }))
+          m.physics.rigid->complete(m.state);
+        return ring_samples(m, elems);
+      },
+      splits_, changed_, taken,
       [&](ElemId e) { return m.physics.rigid && m.physics.rigid->is_rigid(m.mesh.hex[e][0]); });
   if (taken.empty()) return;
   fracture_.retire(taken);
@@ -137,7 +143,10 @@ void Cracks::repeat(Model& m, std::span<const std::array<NodeId, 8>> hex, std::s
 void Cracks::grow(Model& m, const std::vector<NodeSplit>& splits, const std::vector<ElemId>& changed) {
   auto& [mesh, topology, s, ph] = m;
   s.append_copies(splits);
-  if (ph.elements.ranks) ph.elements.ranks->append_copies(splits, s);
+  if (ph.elements.ranks)
+    ph.elements.ranks->append_copies(splits, s);
+  else if (!s.followed.empty())
+    for (const NodeSplit& split : splits) s.followed.push_back(split.child);
   if (ph.loads) ph.loads->append_copies(splits);
   for (ElemId e : changed) ph.elements.blocks.renew(mesh, e);
   for (auto& kind : ph.conditions) std::visit([&mesh = mesh](auto& c) { c.select(mesh); }, kind);

@@ -37,6 +37,7 @@ class EnergyWatch {
   void check(const EnergyRow& row, const Model& m);
   /// After each step; costs nothing unless an audit is under way.
   void tick(const Model& m);
+  bool is_auditing() const { return audit_.has_value(); }
   /// |residual| over the energy at hand (the most that was there so far): at the last check, the largest so far. 0
   /// while there is none to speak of, no more than round-off makes of the elements' stiffness.
   double part() const { return part_; }

@@ -13,4 +13,10 @@ struct Model {
   Physics physics;
 };
 
+/// x, v and f of all nodes become right, those too that other ranks or rigid bodies keep. Collective.
+inline void complete(Model& m) {
+  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(m.state);
+  if (m.physics.rigid) m.physics.rigid->complete(m.state);
+}
+
 }  // namespace bw::csd

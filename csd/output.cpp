@@ -110,7 +110,7 @@ double Output::next_time(double t) const {
 void Output::complete(Model& m) {
   if (m.state.t == t_complete_) return;
   t_complete_ = m.state.t;
-  if (const auto& ranks = m.physics.elements.ranks) ranks->complete(m.state);
+  csd::complete(m);
 }
 
 void Output::write_due(Model& model) {
@@ -258,7 +258,7 @@ double Output::rate() const {
   return element_steps_ / std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Output::tick(const Model& m) {
+void Output::tick(Model& m) {
   element_steps_ += m.mesh.elem_count() * m.state.local.evaluations();
   all_element_steps_ += m.mesh.elem_count() * m.state.local.evaluations();
   short_steps_ += m.state.local.shortest();
@@ -267,6 +267,7 @@ void Output::tick(const Model& m) {
     window_.best = std::max(window_.best, (element_steps_ - window_.element_steps) / seconds);
     window_.element_steps = element_steps_, window_.start = now;
   }
+  if (watch_.is_auditing() && m.physics.rigid) m.physics.rigid->complete(m.state);
   watch_.tick(m);
   progress_.tick(m.state.step, m.state.t, [&] {
     return fmt::format("dt {:.3g} s ({}), energy residual {:.1e}, {} nodes, {:.2f} Melem/s", m.state.dt, limiter(m),

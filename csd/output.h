@@ -26,7 +26,7 @@ class Output {
   /// What is due at the state's time.
   void write_due(Model& model);
   /// After each step.
-  void tick(const Model& model);
+  void tick(Model& model);
   /// The next time that a step has to hit, at most the end.
   double next_time(double t) const;
   /// A file of fields now; returns its path.

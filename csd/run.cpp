@@ -75,6 +75,7 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
   if (channel) expect_fluid(cs, m);
   Progressed now;
   if (from) now = restore_model(m, *from);
+  if (channel && m.physics.rigid) m.physics.rigid->follow_all(m);
   std::optional<Coupled> coupled;
   if (channel) {
     const auto pair = from ? std::optional<PairRestart>({*from, *mark}) : std::nullopt;

@@ -64,7 +64,7 @@ void book_half_work(Model& m, double dt) {
 template <class Change>
 void book_jump(Model& m, double dt_before, double dt, const Change& change) {
   auto& s = m.state;
-  if (const auto& ranks = m.physics.elements.ranks) ranks->complete(s);
+  complete(m);
   const double before = kinetic_product(s, dt_before);
   change();
   m.physics.energy.initial -= before - kinetic_product(s, dt);
@@ -76,7 +76,7 @@ void begin(Model& m, double dt, double whole) {
   auto& s = m.state;
   Rigid* rigid = whole > 0 && m.physics.rigid ? &*m.physics.rigid : nullptr;
   kick(s, 0.5 * dt);  // eq (14)
-  if (rigid) rigid->kick(s, 0.5 * whole);
+  if (rigid) rigid->begin_kick(s, 0.5 * whole);
   before_drift(m, dt);
   if (m.physics.contact) m.physics.contact->act(m, dt);
   if (rigid) rigid->meet_walls(m.physics.conditions, s, whole);
@@ -92,7 +92,7 @@ void end(Model& m, double dt, double whole) {
   on_force(m, dt);
   book_half_work(m, dt);
   kick(s, 0.5 * dt);  // eq (14)
-  if (whole > 0 && m.physics.rigid) m.physics.rigid->kick(s, 0.5 * whole);
+  if (whole > 0 && m.physics.rigid) m.physics.rigid->end_kick(s, 0.5 * whole);
   after_kick(m, dt);
   s.t += dt;
 }

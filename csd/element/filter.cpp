@@ -7,18 +7,10 @@
 #include "common/parallel/loop.h"
 #include "csd/element/lanes.h"
 #include "csd/element/results.h"
+#include "csd/rigid_blocks.h"
 
 namespace bw::csd {
 namespace {
-
-/// Elements of rigid bodies keep what they had: they share no node with others. Blocks of them alone are passed over.
-bool is_rigid(const State& s, SlotId slot) { return s.rigid.size() > 0 && s.rigid[slot] > 0; }
-bool is_rigid(const State& s, int block) {
-  if (s.rigid.size() == 0) return false;
-  for (int l = 0; l < lanes; ++l)
-    if (s.rigid[SlotId(block * lanes + l)] == 0) return false;
-  return true;
-}
 
 /// v_e / V_e at s.x of Pack::size elements.
 Pack volume_ratio(const Elements& el, const State& s, int block, int first) {
@@ -30,9 +22,10 @@ const Volumetric& volumetric_of_body(const Elements& el, int body) {
 }
 const Volumetric& volumetric_of(const Elements& el, SlotId slot) { return volumetric_of_body(el, el.body_of(slot)); }
 
-/// v_e / V_e at s.x, of all elements.
-void volume_ratios(const Elements& el, const State& s, Field<double, SlotId>& J) {
+/// v_e / V_e at s.x; `skips`: but of blocks of rigid bodies.
+void volume_ratios(const Elements& el, const State& s, bool skips, Field<double, SlotId>& J) {
   for_blocks(el.blocks, [&](int block, int) {
+    if (skips && is_rigid_block(s, block)) return;
     for (int l = 0; l < lanes; l += Pack::size) volume_ratio(el, s, block, l).store(&J[SlotId(block * lanes + l)]);
   });
 }
@@ -54,7 +47,7 @@ template <class Fill>
 void add_to_nodes(const Elements& el, const State& s, bool skips, const Field<double, SlotId>& addends,
                   Field<double, NodeId>& sum, const Fill& fill) {
   for_coloured_blocks(el.blocks, [&](int block, int body) {
-    if (skips && is_rigid(s, block)) return;
+    if (skips && is_rigid_block(s, block)) return;
     for (int l = 0; l < lanes; l += Pack::size) fill(block, body, l);
     add_to_corners(
         el.blocks, block, [&](int, int l) { return addends[SlotId(block * lanes + l)]; }, sum);
@@ -97,7 +90,7 @@ PressureFilter::PressureFilter(const FilterCase& cs, const Elements& el, const S
 void PressureFilter::renew(const Elements& el, const State& s) {
   share_.resize(s.x.size());
   sum_.resize(s.x.size());
-  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  parallel_for(int64_t(sum_.size()), [&](int64_t n) { sum_[NodeId(n)] = 0; });
   add_to_nodes(el, s, false, s.V0, sum_, [](int, int, int) {});
   parallel_for(int64_t(sum_.size()), [&](int64_t n) { share_[NodeId(n)] = 0.125 / sum_[NodeId(n)]; });
 }
@@ -171,14 +164,20 @@ void PressureFilter::mean(const Elements& el, const State& s, const Field<double
 
 void PressureFilter::average(const Elements& el, const State& s, const Field<double, SlotId>& a, double strength,
                              Field<double, SlotId>& out) {
-  s.for_nodes([&](NodeId n) { sum_[n] = 0; });
+  const auto for_nodes = [&](const auto& work) {
+    if (skips_rigid_)
+      s.for_nodes(work);
+    else
+      parallel_for(int64_t(sum_.size()), [&](int64_t n) { work(NodeId(n)); });
+  };
+  for_nodes([&](NodeId n) { sum_[n] = 0; });
   add_to_nodes(el, s, skips_rigid_, addends_, sum_, [&](int block, int, int l) {
     const SlotId slot(block * lanes + l);
     (Pack::load(&s.V0[slot]) * Pack::load(&a[slot])).store(&addends_[slot]);
   });
-  s.for_nodes([&](NodeId n) { sum_[n] *= share_[n]; });
+  for_nodes([&](NodeId n) { sum_[n] *= share_[n]; });
   for_blocks(el.blocks, [&](int block, int) {
-    if (skips_rigid_ && is_rigid(s, block)) return;
+    if (skips_rigid_ && is_rigid_block(s, block)) return;
     for (int l = 0; l < lanes; l += Pack::size) blend(el, s, block, l, a, strength, sum_, out);
   });
 }
@@ -197,7 +196,7 @@ const Field<double, SlotId>& PressureFilter::smooth(const Elements& el, const St
     smooth_self_adjoint(el, s);
     return sigma_;
   }
-  volume_ratios(el, s, J_);
+  volume_ratios(el, s, skips_rigid_, J_);
   if (case_.gate != "none") {
     smooth_gated(el, s);
   } else {
@@ -228,7 +227,7 @@ void PressureFilter::smooth_self_adjoint(const Elements& el, const State& s) {
   });
   s.for_nodes([&](NodeId n) { next_sum_[n] *= share_[n]; });
   for_blocks(el.blocks, [&](int block, int) {
-    if (skips_rigid_ && is_rigid(s, block)) return;
+    if (skips_rigid_ && is_rigid_block(s, block)) return;
     for (int l = 0; l < lanes; l += Pack::size) blend(el, s, block, l, stress_, strength_, next_sum_, sigma_);
   });
 }
@@ -298,7 +297,7 @@ double PressureFilter::energy(const Elements& el, const State& s) const {
 double checkerboard(const Elements& el, const State& s) {
   PressureFilter whole(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
   whole.skips_rigid_ = false;
-  volume_ratios(el, s, whole.J_);
+  volume_ratios(el, s, false, whole.J_);
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough =

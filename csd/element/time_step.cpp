@@ -7,6 +7,7 @@
 #include "common/parallel/loop.h"
 #include "csd/element/lanes.h"
 #include "csd/element/stable_step.h"
+#include "csd/rigid_blocks.h"
 
 namespace bw::csd {
 
@@ -21,17 +22,20 @@ void TimeStep::share_masses(const Elements& el, const State& s) {
   const auto at = [&](int block, int a, int l) { return size_t(block * 8 + a) * lanes + size_t(l); };
   if (s.local.most == 0)
     for_blocks(el.blocks, [&](int block, int) {
+      if (is_rigid_block(s, block)) return;
       for_corners(lanes, [&](int a, int l) {
         const SlotId slot(block * lanes + l);
         mass_[at(block, a, l)] *= float(s.omega2[slot] * distortion_[slot]);
       });
     });
   for_coloured_blocks(el.blocks, [&](int block, int) {
+    if (is_rigid_block(s, block)) return;
     add_to_corners(
         el.blocks, block, [&](int a, int l) { return double(mass_[at(block, a, l)]); }, sum);
   });
   el.finish_sum(sum);
   for_blocks(el.blocks, [&](int block, int) {
+    if (is_rigid_block(s, block)) return;
     for_corners(lanes, [&](int a, int l) {
       const NodeId n(el.blocks.node[at(block, a, l)]);
       mass_[at(block, a, l)] = float(mass_[at(block, a, l)] / sum[n] * s.m[n]);
@@ -125,6 +129,7 @@ double TimeStep::refresh(const Elements& el, const State& s, Which which) {
   if (which == Which::all) share_masses(el, s);
   std::vector<float> change(size_t(el.blocks.block_count()), 0);
   for_blocks(el.blocks, [&](int block, int body) {
+    if (is_rigid_block(s, block)) return;
     if (which != Which::all) {
       const BlockState now = state_of(s, distortion_, block);
       if (!now.collapsed && (which == Which::collapsed || now.omega2 < stiff_part * omega2_)) return;

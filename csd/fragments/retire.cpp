@@ -56,7 +56,7 @@ std::vector<Rigid::Piece> Rigid::beyond_box(Model& m) {
 
 void Rigid::retire(Model& m) {
   State& s = m.state;
-  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(s);
+  csd::complete(m);
   const auto pieces = beyond_box(m);
   if (!pieces.empty()) {
     freeze(m, pieces);

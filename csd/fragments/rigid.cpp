@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/app/error.h"
 #include "common/parallel/loop.h"
@@ -57,12 +58,44 @@ void Rigid::go_on(Model& m) {
   if (m.state.rigid.size() > 0) renew_marks(m);
 }
 
-void Rigid::kick(State& s, double h) {
+void Rigid::complete(State& s) {
+  if (is_current_) return;
+  is_current_ = true;
   parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
-    RigidBody& body = bodies_[size_t(i)];
+    const RigidBody& body = bodies_[size_t(i)];
+    if (body.is_stopped()) return;
+    body.place_nodes(s.x);
+    body.move_nodes(s.v);
+    body.share_forces(s.m, s.f, RigidBody::Which::all);
+  });
+}
+
+void Rigid::follow_all(Model& m) {
+  complete(m.state);
+  follows_all_ = true;
+  go_on(m);
+}
+
+/// Bodies that forces may act on.
+template <class Work>
+void Rigid::for_pushed(const Work& work) {
+  parallel_for(int64_t(pushed_.size()), [&](int64_t i) { work(bodies_[size_t(pushed_[size_t(i)])]); });
+}
+
+void Rigid::begin_kick(State& s, double h) {
+  for_pushed([&](RigidBody& body) {
     if (body.is_stopped()) return;
     body.kick(h);
-    body.move_nodes(s.v);
+    body.move_nodes(s.v, RigidBody::Which::asked);
+  });
+}
+
+/// Loads don't ask for velocities before the next one begins.
+void Rigid::end_kick(State& s, double h) {
+  for_pushed([&](RigidBody& body) {
+    if (body.is_stopped()) return;
+    body.kick(h);
+    if (asks_all_) body.move_nodes(s.v);
   });
 }
 
@@ -104,15 +137,16 @@ void Rigid::drift(State& s, double dt) {
     RigidBody& body = bodies_[size_t(i)];
     if (body.is_stopped()) return;
     body.drift(dt);
-    body.place_nodes(s.x);
-    body.move_nodes(s.v);
+    body.place_nodes(s.x, RigidBody::Which::asked);
+    body.move_nodes(s.v, RigidBody::Which::asked);
   });
+  is_current_ = false;
 }
 
 void Rigid::after_elements(const Elements& el, State& s) {
   if (s.local.all_due())
-    parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
-      for (const NodeId n : bodies_[size_t(i)].nodes()) s.f[n] = {};
+    for_pushed([&](const RigidBody& body) {
+      body.for_places(RigidBody::Which::asked, [&](size_t i) { s.f[body.nodes()[i]] = {}; });
     });
   for (const Kept& kept : kept_) {
     if (!s.local.is_block_due(kept.slot / lanes)) continue;
@@ -124,7 +158,12 @@ void Rigid::after_elements(const Elements& el, State& s) {
 
 void Rigid::take_forces(State& s, double dt) {
   drag_work_ += parallel_sum(int64_t(air_.size()), [&](int64_t b) { return add_drag(size_t(b), s, dt); });
-  parallel_for(int64_t(bodies_.size()), [&](int64_t i) { bodies_[size_t(i)].take_forces(s.m, s.f); });
+  for_pushed([&](RigidBody& body) {
+    body.take_forces(s.f, RigidBody::Which::asked);
+    if (asks_all_ || body.is_stopped()) body.share_forces(s.m, s.f, RigidBody::Which::asked);
+  });
+  if (any_new_) std::erase_if(pushed_, [&](int32_t b) { return !bodies_[size_t(b)].is_asked(); });
+  any_new_ = false;
 }
 
 double Rigid::add_drag(size_t b, State& s, double dt) {
@@ -200,6 +239,36 @@ void Rigid::renew_marks(Model& m) {
   if (el.ranks) el.ranks->follow_also(is_rigid_, s);
   for (auto& condition : m.physics.conditions)
     if (auto* wall = std::get_if<RigidWall>(&condition)) wall->leave(is_rigid_);
+  renew_asked(m);
+}
+
+/// Which nodes follow their bodies in each step, and on one rank which the loops over nodes go over.
+void Rigid::renew_asked(Model& m) {
+  const Physics& ph = m.physics;
+  State& s = m.state;
+  const Blocks& blocks = ph.elements.blocks;
+  asks_all_ = follows_all_ || input_.drag || !ph.conditions.empty() || ph.relaxation || ph.mass_scaling || ph.contact ||
+              ph.elements.ranks;
+  std::vector<char> is_asked(is_rigid_.size(), asks_all_);
+  std::vector<char> is_free(is_rigid_.size());
+  parallel_for(int64_t(is_free.size()), [&](int64_t n) { is_free[size_t(n)] = !is_rigid_[size_t(n)]; });
+  for (int block = 0; block < blocks.block_count(); ++block)
+    if (!ph.resting.any() || ph.resting.state[size_t(block)] != Resting::rigid)
+      for (int i = 0; i < 8 * lanes; ++i) {
+        const size_t n = size_t(blocks.nodes_of(block)[i]);
+        is_asked[n] = is_free[n] = 1;
+      }
+  if (ph.loads)
+    for (const NodeId n : ph.loads->nodes()) is_asked[size_t(n)] = 1;
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) { bodies_[size_t(i)].ask(is_asked); });
+  pushed_.resize(bodies_.size());
+  std::iota(pushed_.begin(), pushed_.end(), 0);
+  any_new_ = true;
+  if (ph.elements.ranks) return;
+  s.followed.clear();
+  if (bodies_.empty()) return;
+  for (size_t n = 0; n < is_free.size(); ++n)
+    if (is_free[n]) s.followed.push_back(int32_t(n));
 }
 
 }  // namespace bw::csd

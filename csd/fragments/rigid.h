@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragments that move as rigid bodies: in the step (csd/step.cpp), and who becomes one. A fragment is a component by
 // shared nodes, so a node is of one rigid body or of none. On several ranks every rank follows the nodes of all of
-// them and moves them all alike.
+// them and moves them all alike. On one rank a body's nodes follow it in each step only where loads, conditions or
+// elements beside it ask for them; the others when all are asked for (complete).
 #pragma once
 #include <optional>
 #include <string>
@@ -82,13 +83,19 @@ class Rigid {
   /// At the end of a step: new ones, and those whose time has come. Costs nothing while there is nothing to look at.
   void renew(Model& m);
 
+  /// x, v and f of all nodes as their bodies have them.
+  void complete(State& s);
+  /// All nodes are followed in each step from now on: another program looks at them.
+  void follow_all(Model& m);
+
   // --- in the step, in this order
-  void kick(State& s, double h);  ///< after the nodes' own
+  void begin_kick(State& s, double h);  ///< after the nodes' own
   void meet_walls(std::vector<ConditionKind>& conditions, State& s, double dt);
   void drift(State& s, double dt);  ///< after the nodes' own: places, and velocities as they have turned
   void after_elements(const Elements& el, State& s);  ///< nodes bear no internal force, flow is undone
   /// Once all loads and conditions have added theirs; dt: the step that ends, 0: they are summed up anew.
   void take_forces(State& s, double dt);
+  void end_kick(State& s, double h);  ///< after the nodes' own
   /// Nodes lose what drag has added: their forces change within the step.
   void give_back(State& s);
   double drag_work() const { return drag_work_; }  ///< J, since the start
@@ -150,6 +157,9 @@ class Rigid {
   std::vector<Piece> beyond_box(Model& m);
   void retire(Model& m);
   void keep_calm(Model& m, std::vector<Piece>& pieces);
+  template <class Work>
+  void for_pushed(const Work& work);
+  void renew_asked(Model& m);
   void freeze(Model& m, const std::vector<Piece>& pieces);
   Air air_of(const Model& m, const Piece& piece, const RigidBody& body) const;
   double add_drag(size_t b, State& s, double dt);  ///< J, its work in this half step
@@ -168,6 +178,10 @@ class Rigid {
   std::vector<std::vector<ElemId>> elems_;  // [body]
   std::vector<Air> air_;                    // [body] where there is drag
   double drag_work_ = 0;
+  bool follows_all_ = false, asks_all_ = false;
+  bool is_current_ = true;        // nodes that aren't asked for are where their bodies are
+  std::vector<int32_t> pushed_;   // places in bodies_ of those with nodes that are asked for, or new
+  bool any_new_ = false;          // some are pushed by the forces that they began with alone
   std::vector<char> is_rigid_;    // [node]
   std::vector<int32_t> body_at_;  // [node]
   std::vector<Kept> kept_;

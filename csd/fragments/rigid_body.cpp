@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bw::csd {
 
@@ -40,7 +41,8 @@ void turn(const Mat3& inverse_inertia, double h, Attitude& q, Vec3& P) {
 
 RigidBody::RigidBody(std::vector<NodeId> nodes, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v,
                      const Field<double, NodeId>& m, Motion motion)
-    : nodes_(std::move(nodes)), motion_(motion) {
+    : motion_(motion) {
+  set_nodes(std::move(nodes));
   const Vec3 origin = x[nodes_.front()];  // far from (0, 0, 0) digits would be lost
   for (NodeId n : nodes_) mass_ += m[n], x_ += m[n] * (x[n] - origin), v_ += m[n] * v[n];
   x_ = origin + x_ / mass_, v_ = v_ / mass_;
@@ -56,6 +58,18 @@ RigidBody::RigidBody(std::vector<NodeId> nodes, const Field<Vec3, NodeId>& x, co
   }
   if (motion_ == Motion::six_dof) inverse_inertia_ = inverse(inertia);
   renew_spin();
+}
+
+void RigidBody::set_nodes(std::vector<NodeId> nodes) {
+  nodes_ = std::move(nodes);
+  asked_.resize(nodes_.size());
+  std::iota(asked_.begin(), asked_.end(), 0);
+}
+
+void RigidBody::ask(const std::vector<char>& is_asked) {
+  asked_.clear();
+  for (size_t i = 0; i < nodes_.size(); ++i)
+    if (is_asked[size_t(nodes_[i])]) asked_.push_back(int32_t(i));
 }
 
 void RigidBody::renew_spin() { omega_ = turned_ * (inverse_inertia_ * (transpose(turned_) * L_)); }
@@ -79,21 +93,27 @@ void RigidBody::push(const Vec3& arm, const Vec3& impulse) {
   if (motion_ == Motion::six_dof) L_ += cross(arm, impulse), renew_spin();
 }
 
-void RigidBody::take_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f) {
+void RigidBody::take_forces(const Field<Vec3, NodeId>& f, Which which) {
   F_ = T_ = {};
-  if (is_stopped_) {
-    for (const NodeId n : nodes_) f[n] = {};
-    return;
-  }
-  if (motion_ == Motion::translation) {
-    for (const NodeId n : nodes_) F_ += f[n];
-    const Vec3 acceleration = F_ / mass_;
-    for (const NodeId n : nodes_) f[n] = m[n] * acceleration;
-    return;
-  }
-  for (size_t i = 0; i < nodes_.size(); ++i) F_ += f[nodes_[i]], T_ += cross(arm(i), f[nodes_[i]]);
-  const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
-  for (size_t i = 0; i < nodes_.size(); ++i) f[nodes_[i]] = m[nodes_[i]] * (F_ / mass_ + cross(turning, arm(i)));
+  if (is_stopped_) return;
+  for_places(which, [&](size_t i) {
+    const Vec3& force = f[nodes_[i]];
+    F_ += force;
+    if (motion_ == Motion::six_dof) T_ += cross(arm(i), force);
+  });
+}
+
+void RigidBody::share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f, Which which) const {
+  const Vec3 acceleration = F_ / mass_, turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
+  for_places(which, [&](size_t i) {
+    const NodeId n = nodes_[i];
+    if (is_stopped_)
+      f[n] = {};
+    else if (motion_ == Motion::translation)
+      f[n] = m[n] * acceleration;
+    else
+      f[n] = m[n] * (acceleration + cross(turning, arm(i)));
+  });
 }
 
 void RigidBody::kick(double h) {
@@ -115,19 +135,17 @@ void RigidBody::drift(double dt) {
   renew_spin();
 }
 
-void RigidBody::place_nodes(Field<Vec3, NodeId>& x) const {
-  if (motion_ == Motion::translation) {
-    for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = x_ + arm_[i];
-    return;
-  }
-  for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = x_ + arm(i);
+void RigidBody::place_nodes(Field<Vec3, NodeId>& x, Which which) const {
+  if (motion_ == Motion::translation)
+    for_places(which, [&](size_t i) { x[nodes_[i]] = x_ + arm_[i]; });
+  else
+    for_places(which, [&](size_t i) { x[nodes_[i]] = x_ + arm(i); });
 }
-void RigidBody::move_nodes(Field<Vec3, NodeId>& v) const {
-  if (motion_ == Motion::translation) {
-    for (const NodeId n : nodes_) v[n] = v_;
-    return;
-  }
-  for (size_t i = 0; i < nodes_.size(); ++i) v[nodes_[i]] = velocity_at(arm(i));
+void RigidBody::move_nodes(Field<Vec3, NodeId>& v, Which which) const {
+  if (motion_ == Motion::translation)
+    for_places(which, [&](size_t i) { v[nodes_[i]] = v_; });
+  else
+    for_places(which, [&](size_t i) { v[nodes_[i]] = velocity_at(arm(i)); });
 }
 
 }  // namespace bw::csd

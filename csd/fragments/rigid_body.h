@@ -34,6 +34,18 @@ class RigidBody {
             const Field<double, NodeId>& m, Motion motion);
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
+  /// Nodes that forces may act on, or whose motion is asked for, within a step [node]; at first all.
+  void ask(const std::vector<char>& is_asked);
+  bool is_asked() const { return !asked_.empty(); }
+  enum class Which { all, asked };
+  /// work(place in nodes())
+  template <class Work>
+  void for_places(Which which, const Work& work) const {
+    if (which == Which::asked)
+      for (const int32_t i : asked_) work(size_t(i));
+    else
+      for (size_t i = 0; i < nodes_.size(); ++i) work(i);
+  }
   double mass() const { return mass_; }                   ///< kg
   double radius() const { return radius_; }               ///< m, of the farthest node
   const Vec3& centre() const { return x_; }               ///< m
@@ -52,15 +64,16 @@ class RigidBody {
   bool is_stopped() const { return is_stopped_; }
   /// Impulse [N s] at an arm in space.
   void push(const Vec3& arm, const Vec3& impulse);
-  /// From the nodes' forces [N], which become what the body's acceleration makes of their masses: same sum, same
-  /// moment.
-  void take_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f);
+  /// Sums of forces [N]; nodes that are left out bear none.
+  void take_forces(const Field<Vec3, NodeId>& f, Which which);
+  /// Nodes' forces as the body's acceleration makes them of their masses: same sum, same moment.
+  void share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f, Which which) const;
   /// h times the forces that were taken.
   void kick(double h);
   /// Free motion over dt.
   void drift(double dt);
-  void place_nodes(Field<Vec3, NodeId>& x) const;
-  void move_nodes(Field<Vec3, NodeId>& v) const;
+  void place_nodes(Field<Vec3, NodeId>& x, Which which = Which::all) const;
+  void move_nodes(Field<Vec3, NodeId>& v, Which which = Which::all) const;
 
   /// All bodies of a run in a checkpoint, array by array.
   template <class A>
@@ -70,7 +83,7 @@ class RigidBody {
     for (const RigidBody& body : bodies) nodes.push_back(body.nodes_), arms.push_back(body.arm_);
     a.lists("nodes", nodes), a.lists("arms", arms);
     bodies.resize(nodes.size(), RigidBody());
-    for (size_t b = 0; b < bodies.size(); ++b) bodies[b].nodes_ = nodes[b], bodies[b].arm_ = arms[b];
+    for (size_t b = 0; b < bodies.size(); ++b) bodies[b].set_nodes(nodes[b]), bodies[b].arm_ = arms[b];
     const auto each = [&]<class T>(const char* name, T RigidBody::*number) {
       std::vector<std::conditional_t<std::is_same_v<T, bool>, char, T>> all;
       for (const RigidBody& body : bodies) all.push_back(body.*number);
@@ -88,10 +101,12 @@ class RigidBody {
 
  private:
   RigidBody() = default;
+  void set_nodes(std::vector<NodeId> nodes);
   void renew_spin();
 
   std::vector<NodeId> nodes_;
-  std::vector<Vec3> arm_;  // m, in the body's frame
+  std::vector<Vec3> arm_;       // m, in the body's frame
+  std::vector<int32_t> asked_;  // places in nodes_
   Motion motion_ = Motion::six_dof;
   bool is_stopped_ = false;
   double mass_ = 0, radius_ = 0;

@@ -135,7 +135,7 @@ void Rigid::keep_calm(Model& m, std::vector<Piece>& pieces) {
 
 void Rigid::freeze(Model& m, const std::vector<Piece>& pieces) {
   State& s = m.state;
-  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(s);
+  csd::complete(m);
   for (const Piece& piece : pieces) {
     RigidBody body(nodes_of(m.mesh, piece.elems), s.x, s.v, s.m, motion_);
     const Kinetic before = kinetic(s, body.nodes());
@@ -143,7 +143,8 @@ void Rigid::freeze(Model& m, const std::vector<Piece>& pieces) {
     bodies_.push_back(std::move(body));
     elems_.push_back(piece.elems);
     if (input_.drag) air_.push_back(air_of(m, piece, bodies_.back())), add_drag(bodies_.size() - 1, s, 0);
-    bodies_.back().take_forces(s.m, s.f);
+    bodies_.back().take_forces(s.f, RigidBody::Which::all);
+    bodies_.back().share_forces(s.m, s.f, RigidBody::Which::all);
     book(m.physics.energy, before, kinetic(s, bodies_.back().nodes()));
   }
 }
@@ -167,7 +168,7 @@ Rigid::Air Rigid::air_of(const Model& m, const Piece& piece, const RigidBody& bo
 void Rigid::release(Model& m) {
   State& s = m.state;
   Elements& el = m.physics.elements;
-  if (el.ranks) el.ranks->complete(s);
+  csd::complete(m);
   std::vector<char> is_asked(size_t(m.mesh.elem_count()), 0), is_freed(size_t(m.mesh.node_count()), 0);
   size_t kept = 0;
   std::vector<std::vector<NodeId>> freed;
