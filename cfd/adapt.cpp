@@ -35,10 +35,11 @@ void admit(Model& m, const std::vector<int>& blocks) {
     const std::vector<uint8_t> blocked = blocked_cells(m, b);
     UpdateInput in{&m.setup.medium, burn_of(m), false, m.state.t, m.state.t, true};
     in.blocked = blocked.empty() ? nullptr : blocked.data();
-    Patch patch(m.forest.shape(b));
+    const int materials = m.setup.medium.count();
+    Patch patch(m.forest.shape(b), materials);
     patch.lower = m.forest.lower(b);
     std::vector<uint8_t> marks;
-    m.state.info[size_t(b)] = update_block(in, patch, m.state.block(b), BlockChange(m.forest.shape(b)),
+    m.state.info[size_t(b)] = update_block(in, patch, m.state.block(b), BlockChange(m.forest.shape(b), materials),
                                            m.state.spare(b), marks, m.state.booked[size_t(b)])
                                   .info;
     m.state.flip(b);

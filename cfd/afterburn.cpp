@@ -18,7 +18,7 @@ struct Weighted {
 double mean_pressure(const Model& m) {
   std::vector<Weighted> part(size_t(m.forest.local_blocks()));
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
-    if (m.state.info[size_t(b)].material == 2) return;
+    if (m.state.info[size_t(b)].material >= 2) return;
     const BlockShape& s = m.forest.shape(int(b));
     const std::vector<uint8_t> blocked = blocked_cells(m, int(b));
     const double lower = m.forest.lower(int(b)).x;
@@ -26,8 +26,8 @@ double mean_pressure(const Model& m) {
     std::visit(
         [&](const auto& pair) {
           for (size_t cell = 0; cell < size_t(s.cells()); ++cell) {
-            double U[Cons::count], W[Prim::stored];
-            for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(int(b), q)[cell];
+            double U[Cons::most], W[Prim::most];
+            for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(int(b), q)[cell];
             if (!(U[Cons::arho1] > 0) || (!blocked.empty() && blocked[cell])) continue;
             pair.to_primitive(U, W, m.setup.medium.floors);
             const double mass = U[Cons::arho1] * s.cell_volume(lower, int(cell % size_t(s.n[0])));

@@ -15,7 +15,7 @@ FluidSums shells(const Model& m, int b) {
   const BlockShape& s = m.forest.shape(b);
   for (int i = 0; i < s.n[0]; ++i) {
     const double volume = s.cell_volume(m.forest.lower(b).x, i);
-    for (int q = 0; q < Cons::count; ++q) sum.U[q] += m.state.block(b, q)[i] * volume;
+    for (int q = 0; q < m.state.rows(); ++q) sum.U[q] += m.state.block(b, q)[i] * volume;
     sum.volume += volume;
   }
   return sum;
@@ -35,7 +35,7 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
       return;
     }
     const double volume = m.forest.shape(b).cell_volume();
-    for (int q = 0; q < Cons::count; ++q) {
+    for (int q = 0; q < m.state.rows(); ++q) {
       const double* U = m.state.block(b, q);
       Pack packs(0.0);
       int c = 0;
@@ -58,7 +58,7 @@ FluidSums Books::sums(const Model& m) const {
   // block by block over all ranks, so that the bits do not depend on their number
   std::vector<FluidSums> all = m.forest.comm().size() == 1 ? per_block_ : m.forest.comm().gather_all(per_block_);
   for (const FluidSums& s : all) {
-    for (int q = 0; q < Cons::count; ++q) total.U[q] += s.U[q];
+    for (int q = 0; q < m.state.rows(); ++q) total.U[q] += s.U[q];
     total.volume += s.volume;
   }
   return total;
@@ -66,7 +66,8 @@ FluidSums Books::sums(const Model& m) const {
 
 SweptSums Books::swept_sums(const Comm& comm) const {
   FixedSum sums[10];
-  for (int q = 0; q < 2; ++q) sums[0] += swept.lost[q], sums[1] += swept.made[q];
+  for (int k = 0; k < most_materials; ++k)
+    sums[0] += swept.lost[Cons::arho(k)], sums[1] += swept.made[Cons::arho(k)];
   sums[2] += swept.lost[Cons::rhoE], sums[3] += swept.made[Cons::rhoE];
   for (int d = 0; d < 3; ++d) sums[4 + d] += swept.lost[Cons::mom + d], sums[7 + d] += swept.made[Cons::mom + d];
   FixedSum::sum(comm, sums);

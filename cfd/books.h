@@ -10,7 +10,7 @@
 namespace bw::cfd {
 
 struct FluidSums {
-  double U[Cons::count] = {};   ///< mass 1, mass 2 [kg], momentum [kg m/s], energy [J], volume of material 1 [m^3]
+  double U[Cons::most] = {};    ///< masses [kg], momentum [kg m/s], energy [J], volumes of materials [m^3], as Cons
   double volume = 0;            ///< m^3, open cells
 };
 

@@ -52,14 +52,14 @@ Medium make_medium(const Case& cs) {
 }
 
 /// Conserved state of a cell full of one material.
-void state_of(const Medium& medium, const Case& cs, const StateCase& s, double (&U)[Cons::count]) {
+void state_of(const Medium& medium, const Case& cs, const StateCase& s, double (&U)[Cons::most]) {
   const int m = cs.fluid.material_index(s.material, s.place);
-  double W[Prim::stored] = {};
+  double W[Prim::most] = {};
   const double density = s.unburnt ? std::get<Jwl>(medium.eos[m]).rho0 : s.density;
-  W[Prim::arho1 + m] = density;
+  W[Prim::arho(m)] = density;
   for (int d = 0; d < 3; ++d) W[Prim::v + d] = s.velocity[d];
   W[Prim::p] = s.pressure;
-  W[Prim::alpha1] = m == 0 ? 1 : 0;
+  if (m == 0 || medium.count() > 2) W[Prim::alpha(m)] = 1;
   std::visit([&](const auto& pair) { pair.to_conserved(W, U); }, medium.mixture);
 }
 
@@ -190,15 +190,15 @@ double share_inside(const auto& shape, const Vec3& centre, const BlockShape& s) 
 }
 
 /// U of a cell, its share `f` replaced by `fresh`.
-void blend(State& state, int block, size_t cell, const double (&fresh)[Cons::count], double f) {
-  for (int q = 0; q < Cons::count; ++q) {
+void blend(State& state, int block, size_t cell, const double (&fresh)[Cons::most], double f) {
+  for (int q = 0; q < state.rows(); ++q) {
     double& u = state.block(block, q)[cell];
     u = f == 1 ? fresh[q] : u + f * (fresh[q] - u);
   }
 }
 
 template <class Shape>
-void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
+void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::most]) {
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
     const BlockShape& s = m.forest.shape(int(b));
     const Vec3 lower = m.forest.lower(int(b));
@@ -212,7 +212,7 @@ void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::count]) {
   });
 }
 
-void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::count], bool last) {
+void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::most], bool last) {
   if (!m.walls) throw InputError(fmt::format("{}: expected no cavity: it needs the surface of a body, from csd or from [[fluid.body]]", region.place));
   const Cavity cavity = find_cavity(m.walls->surface(), m.walls->map(), shape.seed);
   if (cavity.cells.empty()) throw InputError(fmt::format("{}: the cavity's seed lies in metal or outside the domain", region.place));
@@ -221,7 +221,7 @@ void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region,
   for (const Index3& c : cavity.cells)
     if (const Forest::Cell at = m.forest.find_finest(c); at.block >= 0 && at.block < m.forest.local_blocks())
       blend(m.state, at.block, m.forest.shape().at(at.k, at.j, at.i), U, 1);
-  const double density = U[Cons::arho1] + U[Cons::arho2];
+  const double density = m.setup.medium.density(U);
   m.cavity_mass += density * cavity.exact_volume;
   if (last) say("cavity of {:.6g} m^3 ({:.6g} in {} cells, {:+.3f} %): {:.6g} kg of {}", cavity.exact_volume, cavity.cell_volume, cavity.cells.size(),
       100 * (cavity.cell_volume / cavity.exact_volume - 1), density * cavity.cell_volume, region.material);
@@ -240,7 +240,7 @@ WallOptions make_wall_options(const WallsCase& walls) {
 }  // namespace
 
 Model::Model(const Comm& comm, const Case& cs)
-    : forest(comm, cs.fluid.grid), state(forest) {
+    : forest(comm, cs.fluid.grid), state(forest, int(cs.fluid.material.size())) {
   setup.medium = make_medium(cs);
   setup.boundary = make_boundary(setup.medium, cs);
   setup.burn = make_burn(cs, forest);
@@ -323,7 +323,7 @@ namespace {
 void paint_regions(Model& m, const Case& cs, bool last) {
   m.cavity_mass = 0;
   for (const RegionCase& r : cs.fluid.region) {
-    double U[Cons::count];
+    double U[Cons::most];
     state_of(m.setup.medium, cs, r, U);
     std::visit(
         [&](const auto& shape) {
@@ -338,10 +338,11 @@ void paint_regions(Model& m, const Case& cs, bool last) {
   std::vector<int> all;
   for (int b = 0; b < m.forest.local_blocks(); ++b) {
     all.push_back(b);
-    const double* rho1 = m.state.block(b, Cons::arho1);
-    const double* rho2 = m.state.block(b, Cons::arho2);
-    for (int c = 0; c < m.forest.shape().cells(); ++c)
-      if (!(rho1[c] + rho2[c] > 0)) ++unpainted;
+    for (int c = 0; c < m.forest.shape().cells(); ++c) {
+      double rho = 0;
+      for (int k = 0; k < std::max(m.setup.medium.count(), 2); ++k) rho += m.state.block(b, Cons::arho(k))[c];
+      if (!(rho > 0)) ++unpainted;
+    }
   }
   if (const double n = m.forest.comm().sum(unpainted); n > 0)
     throw InputError(fmt::format("{}: fluid.region: {:g} cells belong to no region: begin with shape = {{kind = \"everywhere\"}}", cs.file, n));
@@ -368,16 +369,16 @@ void perturb(Model& m, double amplitude) {
           const uint64_t x = uint64_t(first[0] + i * (wide[0] / s.n[0])), y = uint64_t(first[1] + j * (wide[1] / s.n[1])),
                          z = uint64_t(first[2] + k * (wide[2] / s.n[2]));
           const double factor = 1 + amplitude * (2 * uniform01(1, (z * uint64_t(n[1]) + y) * uint64_t(n[0]) + x) - 1);
-          double U[Cons::count], W[Prim::stored];
-          for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(b, q)[s.at(k, j, i)];
+          double U[Cons::most], W[Prim::most];
+          for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(b, q)[s.at(k, j, i)];
           std::visit(
               [&](const auto& pair) {
                 pair.to_primitive(U, W, m.setup.medium.floors);
-                W[Prim::arho1] *= factor, W[Prim::arho2] *= factor;
+                for (int l = 0; l < std::max(m.setup.medium.count(), 2); ++l) W[Prim::arho(l)] *= factor;
                 pair.to_conserved(W, U);
               },
               m.setup.medium.mixture);
-          for (int q = 0; q < Cons::count; ++q) m.state.block(b, q)[s.at(k, j, i)] = U[q];
+          for (int q = 0; q < m.state.rows(); ++q) m.state.block(b, q)[s.at(k, j, i)] = U[q];
         }
   }
   inspect(m, all);

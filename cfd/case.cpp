@@ -63,7 +63,7 @@ void FluidCase::describe(Keys& k) {
   for (size_t d = 0; d < 3; ++d) grid.periodic[d] = boundary.side[2 * d] == "periodic";
   k.table("scheme", scheme, "the flow solver");
   k.table("walls", walls, "how the surfaces of bodies act on the flow");
-  k.tables("material", material, "one or two materials");
+  k.tables("material", material, "from one to six materials; a cell may hold any of them together");
   k.tables("region", region, "the state at t = 0");
   k.table("start_from", start_from, "over the regions, what a run along a radius ended with");
   k.tables("vortex", vortex, "isentropic vortices in the gas of the regions");
@@ -86,7 +86,8 @@ void FluidCase::describe(Keys& k) {
   if (!k.is_manual()) check(k);
   // the flow kernels carry stored energy with material 1
   const std::string explosive = !burn.empty() ? burn[0].material : afterburn ? afterburn->material : "";
-  if (material.size() == 2 && material[1].name == explosive) std::swap(material[0], material[1]);
+  for (size_t m = 1; m < material.size(); ++m)
+    if (material[m].name == explosive) std::swap(material[0], material[m]);
 }
 
 void FluidCase::use_radius(Keys& k, Geometry geometry) {
@@ -159,8 +160,12 @@ void FluidCase::check_cut_cells() const {
 }
 
 void FluidCase::check(Keys& k) const {
-  if (material.empty() || material.size() > 2) k.fail("material", "one or two [[fluid.material]] tables");
-  if (material.size() == 2 && material[0].name == material[1].name) k.fail("material", "two names that differ");
+  if (material.empty() || material.size() > size_t(most_materials))
+    k.fail("material", fmt::format("one to {} [[fluid.material]] tables, not {}", most_materials, material.size()));
+  std::set<std::string> material_names;
+  for (const MaterialCase& m : material)
+    if (!material_names.insert(m.name).second)
+      throw InputError(fmt::format("{}: expected a name of its own, there are two \"{}\"", m.place, m.name));
   if (region.empty()) k.fail("region", "at least one [[fluid.region]]: the state at t = 0");
   const auto check_state = [&](const StateCase& s) {
     const int m = material_index(s.material, s.place);
@@ -196,7 +201,9 @@ void FluidCase::check(Keys& k) const {
   if (scheme.interface == "sharp" && !body.empty())
     throw InputError(fmt::format("{}: expected \"smooth\" beside bodies: their walls reconstruct by lines", scheme.place));
   if (scheme.interface == "sharp" && material.size() != 2)
-    throw InputError(fmt::format("{}: expected \"smooth\" with one material: it has no interface", scheme.place));
+    throw InputError(fmt::format("{}: expected \"smooth\" with {}", scheme.place,
+                                 material.size() == 1 ? "one material: it has no interface"
+                                                      : "more than two materials: sharp interfaces are of two"));
   if (scheme.interface == "sharp" && std::all_of(material.begin(), material.end(), [](const auto& m) { return std::holds_alternative<Jwl>(*m.eos); }))
     throw InputError(fmt::format("{}: expected \"smooth\": sharp interfaces need a gas or a stiffened gas on one side", scheme.place));
   if (grid.geometry != Geometry::planar) check_radial(k);

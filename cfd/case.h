@@ -317,7 +317,7 @@ struct FluidCase {
   std::optional<FieldsCase> fields;
 
   void describe(Keys& k);
-  /// 0 or 1, the material called `name`; InputError at `place` otherwise.
+  /// From 0, the material called `name`; InputError at `place` otherwise.
   int material_index(const std::string& name, const std::string& place) const;
 
  private:

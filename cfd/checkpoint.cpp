@@ -13,7 +13,7 @@
 namespace bw::cfd {
 namespace {
 
-constexpr int64_t layout = 3;
+constexpr int64_t layout = 4;
 constexpr const char* program = "fluid";
 
 /// Numbers of the whole run, the same on all ranks.
@@ -83,13 +83,13 @@ void restore_blocks(Model& m, const Restored& from) {
                 mine = std::count_if(info.begin() + first, info.begin() + first + n, moving);
   const std::vector<double> U = from.rows<double>("U", before, mine);
   const std::vector<Booked> booked = from.rows<Booked>("booked", first, n);
-  const size_t size = m.state.block_size(), cells = size / Cons::count;
+  const size_t size = m.state.block_size(), cells = size / size_t(m.state.rows());
   auto next = U.begin();
   for (int b = 0; b < n; ++b) {
     const BlockInfo& known = m.state.info[size_t(b)] = info[size_t(first + b)];
     m.state.booked[size_t(b)] = booked[size_t(b)];
     if (known.at_rest) {
-      for (int q = 0; q < Cons::count; ++q) std::fill_n(m.state.block(b, q), cells, known.U[q]);
+      for (int q = 0; q < m.state.rows(); ++q) std::fill_n(m.state.block(b, q), cells, known.U[q]);
     } else {
       std::copy_n(next, size, m.state.block(b));
       next += ptrdiff_t(size);
@@ -188,7 +188,7 @@ void restore_books(Books& books, const Comm& comm, const Restart& from) {
     books.swept = swept[size_t(comm.rank())];
   } else if (comm.root()) {
     for (const Swept& s : swept) {
-      for (int q = 0; q < Cons::count; ++q) books.swept.lost[q] += s.lost[q], books.swept.made[q] += s.made[q];
+      for (int q = 0; q < Cons::most; ++q) books.swept.lost[q] += s.lost[q], books.swept.made[q] += s.made[q];
       books.swept.covered += s.covered, books.swept.fresh += s.fresh;
     }
   }

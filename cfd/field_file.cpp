@@ -8,10 +8,14 @@ namespace {
 
 /// Fields of one level, box after box.
 struct LevelFields {
-  std::vector<double> rho, p, alpha;
+  std::vector<double> rho, p;
+  std::vector<std::vector<double>> alpha;  ///< of two materials the first, of more all
   std::vector<Vec3> v;
   std::vector<uint8_t> covered;
-  void resize(size_t n) { rho.resize(n), p.resize(n), alpha.resize(n), v.resize(n), covered.assign(n, 0); }
+  void resize(size_t n, int fractions) {
+    rho.resize(n), p.resize(n), v.resize(n), covered.assign(n, 0);
+    alpha.assign(size_t(fractions), std::vector<double>(n));
+  }
 };
 
 bool wanted(const Case& cs, const Forest& forest, int b) {
@@ -31,8 +35,8 @@ std::vector<double> on_level(const Model& m, int b, int across) {
     BlockShape coarse = s;
     for (size_t d = 0; d < 3; ++d)
       if (s.used[d]) coarse.n[d] /= 2;
-    std::vector<double> mean(size_t(coarse.cells()) * Cons::count);
-    for (int q = 0; q < Cons::count; ++q)
+    std::vector<double> mean(size_t(coarse.cells()) * size_t(m.state.rows()));
+    for (int q = 0; q < m.state.rows(); ++q)
       for (int k = 0; k < coarse.n[2]; ++k)
         for (int j = 0; j < coarse.n[1]; ++j)
           for (int i = 0; i < coarse.n[0]; ++i)
@@ -46,16 +50,17 @@ std::vector<double> on_level(const Model& m, int b, int across) {
 
 void fill(const Model& m, int b, int across, size_t first, LevelFields& out) {
   const std::vector<double> U = on_level(m, b, across);
-  const size_t cells = U.size() / Cons::count;
+  const size_t cells = U.size() / size_t(m.state.rows());
   const std::vector<uint8_t> blocked = across == 1 ? blocked_cells(m, b) : std::vector<uint8_t>();
   std::visit(
       [&](const auto& pair) {
         for (size_t c = 0; c < cells; ++c) {
-          double u[Cons::count], W[Prim::stored];
-          for (int q = 0; q < Cons::count; ++q) u[q] = U[size_t(q) * cells + c];
+          double u[Cons::most], W[Prim::most];
+          for (int q = 0; q < m.state.rows(); ++q) u[q] = U[size_t(q) * cells + c];
           pair.to_primitive(u, W, m.setup.medium.floors);
           const size_t at = first + c;
-          out.rho[at] = u[0] + u[1], out.p[at] = W[Prim::p], out.alpha[at] = W[Prim::alpha1];
+          out.rho[at] = m.setup.medium.density(u), out.p[at] = W[Prim::p];
+          for (size_t k = 0; k < out.alpha.size(); ++k) out.alpha[k][at] = u[Cons::alpha(int(k))];
           out.v[at] = {W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
           if (!blocked.empty()) out.covered[at] = blocked[c];
         }
@@ -67,6 +72,7 @@ void fill(const Model& m, int b, int across, size_t first, LevelFields& out) {
 
 void write_field_file(const std::string& path, const Case& cs, const Model& m) {
   const Forest& forest = m.forest;
+  const int materials = m.setup.medium.count(), fractions = materials == 1 ? 0 : materials == 2 ? 1 : materials;
   std::vector<VtkLevel> levels(size_t(forest.levels()) + 1);
   std::vector<LevelFields> fields(levels.size());
   int top = 0;
@@ -97,15 +103,15 @@ void write_field_file(const std::string& path, const Case& cs, const Model& m) {
       n += cells;
     }
     LevelFields& f = fields[l];
-    f.resize(n);
+    f.resize(n, fractions);
     parallel_for_dynamic(int64_t(parts.size()), [&](int64_t i) {
       const Part& part = parts[size_t(i)];
       fill(m, part.block, part.across, part.first, f);
     });
     level.fields = {VtkField::scalars("density", f.rho), VtkField::scalars("pressure", f.p),
                     VtkField::vectors("velocity", f.v)};
-    if (cs.fluid.material.size() == 2)
-      level.fields.push_back(VtkField::scalars("alpha_" + cs.fluid.material[0].name, f.alpha));
+    for (size_t k = 0; k < f.alpha.size(); ++k)
+      level.fields.push_back(VtkField::scalars("alpha_" + cs.fluid.material[k].name, f.alpha[k]));
     if (m.walls) level.fields.push_back({"covered", 1, std::span<const uint8_t>(f.covered)});
     for (VtkField& field : level.fields) field.exact = cs.run.output.exact;
   }

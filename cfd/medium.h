@@ -11,31 +11,59 @@ namespace bw::cfd {
 
 struct Medium {
   Medium() = default;
-  /// One or two materials; one alone is its own twin, with alpha1 exactly 1 everywhere.
+  /// One material alone is its own twin, with alpha1 exactly 1 everywhere.
   Medium(std::vector<std::string> names_, const std::vector<EosChoice>& eos_, const Floors& floors_)
-      : names(std::move(names_)), mixture(make_mixture(eos_.front(), eos_.back())), floors(floors_) {
-    closure = cfd::closure(mixture);
-    for (int m = 0; m < 2; ++m)
+      : names(std::move(names_)), mixture(make_mixture(eos_)), floors(floors_) {
+    for (int m = 0; m < std::max(count(), 2); ++m) {
+      eos[m] = m < count() ? eos_[size_t(m)] : eos_.back();
       std::visit(
           [&](const auto& e) {
-            gas[m] = {1 / e.Gruneisen(), -e.reference(1.0).p / e.Gruneisen(), m == 0 ? Prim::arho1 : Prim::arho2};
+            gas[m] = {1 / e.Gruneisen(), -e.reference(1.0).p / e.Gruneisen(), Prim::arho(m), Cons::arho(m)};
             is_gas[m] = e.constant_reference && e.covolume() == 0;
           },
-          m == 0 ? eos_.front() : eos_.back());
-    eos[0] = eos_.front(), eos[1] = eos_.back();
+          eos[m]);
+    }
   }
   int count() const { return int(names.size()); }
+  /// Variables of a cell.
+  int rows() const { return Cons::rows(count()); }
+  /// kg/m^3 of all materials.
+  double density(const double* U) const {
+    double rho = U[Cons::arho1] + U[Cons::arho2];
+    for (int k = 2; k < count(); ++k) rho += U[Cons::arho(k)];
+    return rho;
+  }
+  /// Volume fraction of material k (from 0) in a cell U.
+  double alpha(const double* U, int k) const {
+    return k == 1 && count() <= 2 ? 1 - U[Cons::alpha1] : U[Cons::alpha(k)];
+  }
+  /// 1, 2 ...: the cell holds this material alone; 0: mixed.
+  int material_of(const double* U) const {
+    if (count() <= 2) return U[Cons::alpha1] == 1.0 ? 1 : U[Cons::alpha1] == 0.0 ? 2 : 0;
+    for (int k = 0; k < count(); ++k)
+      if (U[Cons::alpha(k)] == 1.0) return k + 1;
+    return 0;
+  }
 
   std::vector<std::string> names;
-  EosChoice eos[2];
+  EosChoice eos[most_materials];
   Mixture mixture;
-  Closure closure{};
   Floors floors;
-  bool is_gas[2] = {false, false};  ///< material 1, 2: its Pi is constant, gas[] holds alone
-  GasFlow gas[2]{};
-  Interface interface {};  ///< how cells of both materials are reconstructed
-  MixedFlow mixed() const { return {closure, interface}; }
+  bool is_gas[most_materials] = {};  ///< its Pi is constant, gas[] holds alone
+  GasFlow gas[most_materials]{};
+  Interface interface {};  ///< how cells of two materials are reconstructed
 };
+
+/// The flow of two materials (or of one that is its own twin).
+inline MixedFlow mixed_flow(const Medium& medium) {
+  MixedFlow flow{};
+  std::visit(
+      [&]<class Mix>(const Mix& mix) {
+        if constexpr (Mix::materials == 2) flow = {mix.closure(), medium.interface};
+      },
+      medium.mixture);
+  return flow;
+}
 
 /// GasPrim of one gas. Returns p before the lift.
 template <class T>

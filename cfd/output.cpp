@@ -57,7 +57,7 @@ double stored_energy(const Model& m) {
   const Burn& burn = *m.setup.burn;
   std::vector<double> part(size_t(m.forest.local_blocks()));
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
-    if (m.state.info[size_t(b)].material == 2) return;
+    if (m.state.info[size_t(b)].material >= 2) return;
     const BlockShape& s = m.forest.shape(int(b));
     const Vec3 lower = m.forest.lower(int(b));
     if (burn.phase(lower, lower + m.forest.extent(int(b)), m.state.t, m.state.t) == Burn::Phase::after) return;
@@ -156,9 +156,9 @@ Output::PointValues Output::at(const Model& m, const Vec3& x) const {
   const Forest::Cell c = m.forest.find(x);
   double values[6] = {};
   if (c.block >= 0) {
-    double U[Cons::count], W[Prim::stored];
+    double U[Cons::most], W[Prim::most];
     const size_t cell = m.forest.shape().at(c.k, c.j, c.i);
-    for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(c.block, q)[cell];
+    for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(c.block, q)[cell];
     std::visit([&](const auto& pair) { pair.to_primitive(U, W, m.setup.medium.floors); }, m.setup.medium.mixture);
     values[0] = U[0] + U[1], values[1] = W[Prim::p], values[2] = W[Prim::alpha1];
     for (int d = 0; d < 3; ++d) values[3 + d] = W[Prim::v + d];
@@ -197,14 +197,16 @@ void Output::write_row(const Model& m, const Books& books) {
   };
   swept_ = books.swept_sums(m.forest.comm());
   std::vector<double> row{m.state.t, double(m.state.step), dt_};
-  for (size_t i = 0; i < case_.fluid.material.size(); ++i) row.push_back(s.U[i]);
-  row.push_back(s.U[0] + s.U[1]);
+  for (size_t i = 0; i < case_.fluid.material.size(); ++i) row.push_back(s.U[Cons::arho(int(i))]);
+  row.push_back(m.setup.medium.density(s.U));
   for (int d = 0; d < 3; ++d) row.push_back(s.U[Cons::mom + d]);
   row.push_back(s.U[Cons::rhoE]);
   row.push_back(stored_energy(m));
   row.push_back(s.volume);
   row.push_back(p_max_ = books.p_max(m));
-  row.push_back(out(0) + out(1));
+  double mass_out = out(0) + out(1);
+  for (int k = 2; k < m.setup.medium.count(); ++k) mass_out += out(Cons::arho(k));
+  row.push_back(mass_out);
   for (int d = 0; d < 3; ++d) row.push_back(out(Cons::mom + d));
   row.push_back(out(Cons::rhoE));
   for (const Vec3& v : {books.wall_impulse, books.face_impulse, books.lip_impulse})
@@ -279,7 +281,7 @@ void Output::finish(Model& m, const Books& books, const std::string& status, con
   const double n = status == "failed" ? 0 : updates(m);
   const double flow = timers().seconds("flow");
   s.rates = {{"cell_updates_per_second", (n - updates_before_) / std::max(flow, 1e-9)}, {"cell_updates", n}};
-  s.masses = {{"start", first_.U[0] + first_.U[1]}, {"end", last_.U[0] + last_.U[1]}, {"explosive", m.explosive_mass},
+  s.masses = {{"start", m.setup.medium.density(first_.U)}, {"end", m.setup.medium.density(last_.U)}, {"explosive", m.explosive_mass},
               {"cavity_volume_times_density", m.cavity_mass}, {"covered", swept_.mass_lost},
               {"uncovered", swept_.mass_made}, {"through_walls", books.wall_mass}};
   s.energies = {{"start", first_.U[Cons::rhoE]}, {"end", last_.U[Cons::rhoE]}, {"chemical", m.setup.burn ? m.setup.burn->q * m.explosive_mass : 0},

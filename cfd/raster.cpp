@@ -93,7 +93,7 @@ void Raster::step(const Model& m, double t0, double t1, double arrival) {
   const auto state_of = [&](int g) { return m.state.info[size_t(sampler_.block_of(g))].U; };
   const auto unchanged = [&](int g) {
     const Calm& c = calm_[size_t(g)];
-    return c.calm && at_rest(g) && std::equal(c.U, c.U + Cons::count, state_of(g));
+    return c.calm && at_rest(g) && std::equal(c.U, c.U + Cons::most, state_of(g));
   };
   std::vector<uint8_t> skipped(calm_.size());
   for (size_t g = 0; g < calm_.size(); ++g) skipped[g] = t0 >= 0 && unchanged(int(g));
@@ -111,7 +111,7 @@ void Raster::step(const Model& m, double t0, double t1, double arrival) {
     bool calm = at_rest(int(g));
     sampler_.each_point(int(g), [&](size_t i) { calm = calm && wave_[i].now == 0; });
     calm_[g].calm = calm;
-    std::copy_n(state_of(int(g)), int(Cons::count), calm_[g].U);
+    std::copy_n(state_of(int(g)), int(Cons::most), calm_[g].U);
   }
 }
 

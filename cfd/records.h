@@ -48,7 +48,7 @@ class Raster {
   /// A group of points whose block was at rest in this state without overpressure.
   struct Calm {
     bool calm = false;
-    double U[Cons::count] = {};
+    double U[Cons::most] = {};
   };
   std::vector<Calm> calm_;  ///< [group]
   struct Frame {

@@ -266,7 +266,7 @@ void check(const Case& cs, const Comm& comm) {
     if (m.forest.shape().used[size_t(d)]) rate += fastest / m.forest.finest_shape().h[d];
   const double steps = rate > 0 ? cs.run.time.end * rate / cs.fluid.scheme.cfl : 0;
   const double cells = finest_cells(m);
-  constexpr double bytes_a_cell = 2 * 8 * Cons::count + 1, cells_a_second = 6e6;
+  const double bytes_a_cell = 2 * 8 * m.state.rows() + 1, cells_a_second = 6e6;
   say("{}: the case is sound", cs.file);
   say("about {:.0f} steps of {:.3g} s, {:.2f} GB, at most {:.1f} min on {} threads (blocks at rest cost nothing{})", steps, cs.run.time.end / std::max(steps, 1.0),
       1e-9 * cells * bytes_a_cell, steps * cells / (cells_a_second * thread_count()) / 60, thread_count(), m.refine ? "; if all blocks were of the finest level" : "");

@@ -53,7 +53,7 @@ bool Sampler::needs_copies(const Model& m) {
 
 void Sampler::begin(const Model& m, const Group& group, Space& space) const {
   if (!group.ghosts) return;
-  if (space.patch.pitch() == 0) space.patch = Patch(m.forest.shape());
+  if (space.patch.pitch() == 0) space.patch = Patch(m.forest.shape(), m.setup.medium.count());
   const Gather gather(m.forest, m.state, m.setup.boundary, m.setup.medium);
   gather.fill(group.block, space.patch, space.ghosts, true);
 }
@@ -95,17 +95,19 @@ bool Sampler::value(const Model& m, const Group& group, const Place& at, const S
       weight *= other ? share[d] : 1 - share[d];
     }
     if (weight == 0 || (walls && m.walls->map().blocked(in_map(c)))) continue;
-    double W[Prim::stored];
+    double W[Prim::most];
     if (group.ghosts) {
-      for (int q = 0; q < Prim::count; ++q) W[q] = space.patch.row(q, c[2], c[1])[c[0]];
+      for (int q = 0; q < Prim::rows(m.setup.medium.count()); ++q) W[q] = space.patch.row(q, c[2], c[1])[c[0]];
     } else {
-      double U[Cons::count];
-      for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(group.block, q)[s.at(c[2], c[1], c[0])];
+      double U[Cons::most];
+      for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(group.block, q)[s.at(c[2], c[1], c[0])];
       std::visit([&](const auto& pair) { pair.to_primitive(U, W, m.setup.medium.floors); }, m.setup.medium.mixture);
     }
     total += weight;
+    double rho = W[Prim::arho1] + W[Prim::arho2];
+    for (int k = 2; k < m.setup.medium.count(); ++k) rho += W[Prim::arho(k)];
     const double values[6] = {
-        W[Prim::arho1] + W[Prim::arho2], W[Prim::p], W[Prim::alpha1], W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
+        rho, W[Prim::p], W[Prim::alpha1], W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
     for (int q = 0; q < 6; ++q) sum[q] += weight * values[q];
   }
   for (double& q : sum) q /= total;

@@ -14,18 +14,18 @@ namespace bw::cfd {
 
 /// What is known of a block without looking at its cells.
 struct BlockInfo {
-  int32_t material = 0;        ///< 1 or 2: every cell holds this material alone; 0: mixed
+  int32_t material = 0;        ///< 1, 2 ...: every cell holds this material alone; 0: mixed
   int32_t at_rest = 0;         ///< all cells have the same bits and no momentum
   double rate = 0;             ///< max over cells of sum_d (|v_d| + c)/h_d [1/s]
   double p_max = 0;            ///< Pa, largest of its cells
-  double U[Cons::count] = {};  ///< of the block's first cell
+  double U[Cons::most] = {};   ///< of the block's first cell
 };
 
 /// Amounts that entered or left the books otherwise than by fluxes between cells; per block, added up since the start.
 struct Booked {
-  double side[6][Cons::count] =
+  double side[6][Cons::most] =
       {};  ///< through the sides of the domain, out of lower and into upper: sum of flux dt area
-  double cleaned[Cons::count] = {};  ///< removed with traces of a material (alpha < 1e-8)
+  double cleaned[Cons::most] = {};   ///< removed with traces of a material (alpha < 1e-8)
   double floor_energy = 0;           ///< added where p was below its floor
   double afterburn = 0;              ///< energy released by products that burn on
   int64_t floors = 0;                ///< how often
@@ -35,8 +35,8 @@ struct Booked {
 
   Booked& operator+=(const Booked& b) {
     for (int i = 0; i < 6; ++i)
-      for (int q = 0; q < Cons::count; ++q) side[i][q] += b.side[i][q];
-    for (int q = 0; q < Cons::count; ++q) cleaned[q] += b.cleaned[q];
+      for (int q = 0; q < Cons::most; ++q) side[i][q] += b.side[i][q];
+    for (int q = 0; q < Cons::most; ++q) cleaned[q] += b.cleaned[q];
     floor_energy += b.floor_energy, afterburn += b.afterburn;
     floors += b.floors, scaled_cells += b.scaled_cells, first_order += b.first_order, updates += b.updates;
     return *this;
@@ -68,8 +68,13 @@ class BlockPool {
 
 class State {
  public:
-  explicit State(const Forest& forest) : cells_(size_t(forest.shape().cells())), pool_(block_size()) { fit(forest); }
-  size_t block_size() const { return cells_ * Cons::count; }
+  explicit State(const Forest& forest, int materials = 2)
+      : rows_(Cons::rows(materials)), cells_(size_t(forest.shape().cells())), pool_(block_size()) {
+    fit(forest);
+  }
+  /// Variables of a cell.
+  int rows() const { return rows_; }
+  size_t block_size() const { return cells_ * size_t(rows_); }
   /// One variable of a block, [k][j][i]; blocks from local_blocks() on are copies of other ranks'.
   const double* block(int b, int variable = 0) const {
     const size_t local = current_.size();
@@ -110,6 +115,7 @@ class State {
   std::vector<Booked> booked;   ///< [local]
 
  private:
+  int rows_;
   size_t cells_;
   BlockPool pool_;
   std::vector<double*> current_, spare_;  ///< [local]

@@ -58,11 +58,12 @@ bool advance_flow(Model& m, Sweep& sweep, double dt, double share) {
   const Index3 first = m.forest.first_cell(bad.block);
   const int i = bad.cell % s.n[0], j = bad.cell / s.n[0] % s.n[1], k = bad.cell / (s.n[0] * s.n[1]);
   const Vec3 x = m.forest.lower(bad.block) + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
-  const auto u = [&](int q) { return m.state.block(bad.block, q)[bad.cell]; };
+  double u[Cons::most];
+  for (int q = 0; q < m.state.rows(); ++q) u[q] = m.state.block(bad.block, q)[bad.cell];
   throw PhysicsError(fmt::format(
       "no valid state (density, pressure or a number) follows in cell ({}, {}, {}) at ({:.6g}, {:.6g}, {:.6g}) m, step {}, t = {:.9g} s, even "
       "with dt = {:.3g} s; before: density {:.6g} kg/m^3, momentum ({:.4g}, {:.4g}, {:.4g}), energy {:.6g} J/m^3, alpha {:.6g}",
-      first[0] + i, first[1] + j, first[2] + k, x.x, x.y, x.z, m.state.step, m.state.t, dt, u(0) + u(1), u(2), u(3), u(4), u(5), u(6)));
+      first[0] + i, first[1] + j, first[2] + k, x.x, x.y, x.z, m.state.step, m.state.t, dt, m.setup.medium.density(u), u[2], u[3], u[4], u[5], u[6]));
 }
 
 void book_walls(Model& m, Sweep& sweep, Books& books, double dt, const coupling::Loads& loads, const std::vector<Vec3>& v) {

@@ -16,12 +16,13 @@ namespace bw::cfd {
 namespace {
 
 /// May a fresh cell begin with this?
-bool usable(const Medium& medium, const double (&U)[Cons::count]) {
-  double W[Prim::stored];
+bool usable(const Medium& medium, const double (&U)[Cons::most]) {
+  double W[Prim::most];
   const double p = std::visit([&](const auto& pair) { return pair.to_primitive(U, W, medium.floors); }, medium.mixture);
   bool finite = std::isfinite(p) && std::isfinite(W[Prim::c]);
-  for (double u : U) finite = finite && std::isfinite(u);
-  return finite && U[Cons::arho1] >= 0 && U[Cons::arho2] >= 0 && U[Cons::arho1] + U[Cons::arho2] >= medium.floors.rho;
+  for (int q = 0; q < medium.rows(); ++q) finite = finite && std::isfinite(U[q]);
+  for (int k = 0; k < std::max(medium.count(), 2); ++k) finite = finite && U[Cons::arho(k)] >= 0;
+  return finite && medium.density(U) >= medium.floors.rho;
 }
 
 /// Is a wall near any block of the finest level in cells [first, end)?
@@ -40,17 +41,20 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
   fit();
   spaces_.resize(size_t(thread_count()));
   for (Space& space : spaces_) {
-    space.patch = Patch(forest.shape());
-    space.change = BlockChange(forest.shape());
+    space.patch = Patch(forest.shape(), setup.medium.count());
+    space.change = BlockChange(forest.shape(), setup.medium.count());
     space.gas.emplace(forest.shape());
-    space.mixed.emplace(forest.shape());
+    if (setup.medium.count() > 2)
+      space.many = make_many_kernel(setup.medium.mixture, forest.shape());
+    else
+      space.mixed.emplace(forest.shape());
     if (!walls_) continue;
     if (walls_->cut()) {
       space.cut_cell.emplace(forest.finest_shape());
       continue;
     }
     space.cuts = PatchCuts(forest.finest_shape());
-    for (int m = 0; m < 2; ++m)
+    for (int m = 0; m < setup.medium.count(); ++m)
       if (setup.medium.is_gas[m]) space.cut_gas[m] = make_cut_scheme(setup.medium.gas[m], forest.finest_shape(), walls_->treatment());
     space.cut_mixed = make_cut_scheme(setup.medium.mixture, forest.finest_shape(), walls_->treatment());
   }
@@ -68,7 +72,7 @@ void Sweep::fit() {
   near_.assign(n, far);
   wall_.assign(n, {});
   if (walls_ && walls_->conservative()) links_.assign(n, {});
-  fluxes_.fit(forest_);
+  fluxes_.fit(forest_, setup_.medium.rows());
 }
 
 bool Sweep::burns(int block) const {
@@ -107,7 +111,7 @@ void Sweep::select(const State& s, double dt) {
       if (near_[size_t(b)] == near) active_.push_back(b);
       if (near_[size_t(b)] != far) continue;
     }
-    const bool inert = s.info[size_t(b)].material == 2;
+    const bool inert = s.info[size_t(b)].material >= 2;
     if (!setup_.skip_quiet || !gather.quiet(b) || (!inert && (heat_ > 0 || burns(b))))
       active_.push_back(b);
     else
@@ -121,9 +125,9 @@ void Sweep::rest_at_sides(const State& s, int block, Booked& booked) const {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       if (!shape.used[d] || !forest_.at_side(block, d, upper)) continue;
-      double U[Cons::count], W[Prim::stored];
-      std::copy_n(s.info[size_t(block)].U, int(Cons::count), U);
-      std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
+      const double* U = s.info[size_t(block)].U;
+      double W[Prim::most];
+      std::visit([&](const auto& mix) { mix.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
       const double area =
           shape.side_volume(forest_.lower(block).x, d, upper) / shape.h[d] * (shape.cells() / shape.n[d]);
       booked.side[2 * d + upper][Cons::mom + d] += W[Prim::p] * dt_ * area;
@@ -152,7 +156,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
         },
         patch);
   UpdateInput in{
-      &setup_.medium, setup_.burn ? &*setup_.burn : nullptr, patch.material != 2 && burns(block), t_, t_ + dt_,
+      &setup_.medium, setup_.burn ? &*setup_.burn : nullptr, patch.material < 2 && burns(block), t_, t_ + dt_,
       first_order};
   in.heat = heat_;
   const int m = patch.material;
@@ -169,11 +173,16 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     unsigned mirror = 0;
     for (int upper = 0; upper < 2; ++upper)
       if (setup_.boundary.side[upper].kind == SideKind::wall && forest_.at_side(block, 0, upper)) mirror |= 1u << upper;
-    advance_radial(patch, setup_.medium, dt_, mirror, space.radial, change);
+    if (space.many && !is_gas_block)
+      space.many->advance_radial(patch, dt_, mirror, change);
+    else
+      advance_radial(patch, setup_.medium, dt_, mirror, space.radial, change);
   } else if (is_gas_block)
     space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
+  else if (space.many)
+    space.many->advance(patch, dt_, change);
   else
-    space.mixed->advance(patch, setup_.medium.mixed(), dt_, change);
+    space.mixed->advance(patch, mixed_flow(setup_.medium), dt_, change);
   if (near_[size_t(block)] == near) in.blocked = meet_walls(s, block, space);
   if (change.keep_sides) match_levels(block, space);
   in.others_hold = m != 0 && gas_before_[size_t(block)] == m;
@@ -182,7 +191,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
       update_block(in, patch, s.block(block), change, s.spare(block), marks_[size_t(block)], booked);
   for (int side = 0; side < 6; ++side) {
     const double volume = shape.side_volume(patch.lower.x, side / 2, side % 2);
-    for (int q = 0; q < Cons::count; ++q) booked.side[side][q] += change.side[side][q] * volume;
+    for (int q = 0; q < change.rows; ++q) booked.side[side][q] += change.side[side][q] * volume;
   }
   booked.scaled_cells += change.scaled_cells;
   booked.updates += shape.cells();
@@ -192,7 +201,7 @@ void Sweep::match_levels(int block, Space& space) {
   const Stopwatch watch(space.ghosts.seconds);
   fluxes_.record(block, space.change);
   std::vector<int> rows;
-  for (int q = 0; q < (is_gas(space.patch) ? int(GasCons::count) : int(Cons::count)); ++q)
+  for (int q = 0; q < (is_gas(space.patch) ? int(GasCons::count) : setup_.medium.rows()); ++q)
     rows.push_back(is_gas(space.patch) ? setup_.medium.gas[space.patch.material - 1].cons_row(q) : q);
   fluxes_.correct(block, space.patch, rows, space.change);
 }
@@ -292,7 +301,7 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
   std::set<int> touched;
   const auto take = [&](const Index3& c) {
     const Place at = place_of(c);
-    for (int q = 0; q < Cons::count; ++q) swept.lost[q] += s.block(at.block, q)[at.cell] * shape.cell_volume();
+    for (int q = 0; q < s.rows(); ++q) swept.lost[q] += s.block(at.block, q)[at.cell] * shape.cell_volume();
     ++swept.covered;
     touched.insert(at.block);
   };
@@ -300,15 +309,15 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
     if (is_local(c)) take(c);
   for (const FreshCell& f : changes.fresh)
     if (f.held_fluid && is_local(f.cell)) take(f.cell);
-  const CellReader read = [&](const Index3& c, double(&U)[Cons::count]) {
+  const CellReader read = [&](const Index3& c, double* U) {
     const Place at = place_of(c);
-    for (int q = 0; q < Cons::count; ++q) U[q] = s.block(at.block, q)[at.cell];
+    for (int q = 0; q < s.rows(); ++q) U[q] = s.block(at.block, q)[at.cell];
   };
   for (int layer = 1; layer <= changes.layers; ++layer) {
     exchange(s);
     struct Filled {
       Index3 cell;
-      double U[Cons::count];
+      double U[Cons::most];
       bool found;
     };
     std::vector<Filled> filled;
@@ -322,7 +331,7 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
     for (const Filled& f : filled) {
       if (!f.found) continue;
       const Place at = place_of(f.cell);
-      for (int q = 0; q < Cons::count; ++q) {
+      for (int q = 0; q < s.rows(); ++q) {
         s.block(at.block, q)[at.cell] = f.U[q];
         swept.made[q] += f.U[q] * shape.cell_volume();
       }
@@ -337,8 +346,8 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
 }
 
 /// One more cell of a block: its bounds grow with it.
-void Sweep::note(const double (&U)[Cons::count], BlockInfo& info) const {
-  double W[Prim::stored];
+void Sweep::note(const double (&U)[Cons::most], BlockInfo& info) const {
+  double W[Prim::most];
   std::visit([&](const auto& pair) { pair.to_primitive(U, W, setup_.medium.floors); }, setup_.medium.mixture);
   double rate = 0;
   const BlockShape& s = forest_.finest_shape();
@@ -346,7 +355,7 @@ void Sweep::note(const double (&U)[Cons::count], BlockInfo& info) const {
     if (s.used[size_t(d)]) rate += (std::abs(W[Prim::v + d]) + W[Prim::c]) / s.h[d];
   info.rate = std::max(info.rate, rate);
   info.at_rest = 0;
-  if (U[Cons::alpha1] != (info.material == 1 ? 1.0 : 0.0)) info.material = 0;
+  if (setup_.medium.material_of(U) != info.material) info.material = 0;
 }
 
 void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_order) {

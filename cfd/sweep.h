@@ -13,6 +13,7 @@
 #include "cfd/embed/walls.h"
 #include "cfd/amr/radial.h"
 #include "cfd/scheme/block_kernel.h"
+#include "cfd/scheme/many_kernel.h"
 #include "cfd/source/afterburn.h"
 #include "common/parallel/fixed_sum.h"
 
@@ -35,7 +36,7 @@ struct BadCell {
 /// What moving walls took from the fluid and gave to it: cells covered and uncovered (DESIGN 5b: booked, not given
 /// back).
 struct Swept {
-  FixedSum lost[Cons::count] = {}, made[Cons::count] = {};  ///< integrals of U
+  FixedSum lost[Cons::most] = {}, made[Cons::most] = {};  ///< integrals of U
   int64_t covered = 0, fresh = 0;                         ///< cells
 };
 
@@ -95,9 +96,10 @@ class Sweep {
     BlockChange change;
     std::optional<BlockKernel<GasFlow, Pack>> gas;
     std::optional<BlockKernel<MixedFlow, Pack>> mixed;
+    std::unique_ptr<ManyKernel> many;  ///< of more than two materials
     RadialSpace radial;
     PatchCuts cuts;
-    std::unique_ptr<CutScheme> cut_gas[2], cut_mixed;  ///< made when there are walls
+    std::unique_ptr<CutScheme> cut_gas[most_materials], cut_mixed;  ///< made when there are walls
     std::optional<CutCellKernel> cut_cell;             ///< in their place
     std::vector<uint8_t> blocked;
   };
@@ -120,7 +122,7 @@ class Sweep {
   std::vector<int> around_marked() const;
   bool burns(int block) const;
   void count_bad();
-  void note(const double (&U)[Cons::count], BlockInfo& info) const;
+  void note(const double (&U)[Cons::most], BlockInfo& info) const;
 
   const Forest& forest_;
   const FlowSetup& setup_;
@@ -132,7 +134,7 @@ class Sweep {
   const RefineRules* look_ = nullptr;
   std::vector<Asks> asks_;  ///< [local block]
   std::vector<UpdateResult> result_;  ///< [local block]
-  std::vector<int8_t> gas_before_;    ///< [local block] 1 or 2: the gas that its last step was done for; 0: not one gas
+  std::vector<int8_t> gas_before_;    ///< [local block] 1, 2 ...: the gas that its last step was done for; 0: not one gas
   std::vector<Booked> pending_;       ///< [local block] of this step
   std::vector<std::vector<uint8_t>> marks_;        ///< [local block] bad cells of the last pass
   std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order

@@ -16,7 +16,7 @@ enum class SideKind {
 
 struct BoundarySide {
   SideKind kind = SideKind::wall;
-  double U[Cons::count] = {};  ///< inflow, far_field, subsonic_inflow: the conserved state
+  double U[Cons::most] = {};  ///< inflow, far_field, subsonic_inflow: the conserved state
   double across = 1;           ///< m, from here to the other side of the domain
   bool has_state() const { return kind == SideKind::inflow || kind == SideKind::far_field || kind == SideKind::subsonic_inflow; }
 };

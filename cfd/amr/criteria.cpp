@@ -58,7 +58,7 @@ class Criteria {
     if (in_.asks) {
       w.asks = (*in_.asks)[size_t(b)];
     } else if (!gather_.quiet(b)) {
-      if (space.patch.pitch() == 0) space.patch = Patch(in_.forest.shape());
+      if (space.patch.pitch() == 0) space.patch = Patch(in_.forest.shape(), in_.medium.count());
       gather_.fill(b, space.patch, space.ghosts);
       w.asks = asks_of(space.patch, in_.medium, rules_, in_.forest.level(b), in_.forest.levels());
     }
@@ -104,7 +104,7 @@ class Criteria {
   }
   /// Explosive that is not yet burnt.
   bool burns(int b) const {
-    if (!in_.burn || in_.state.t >= in_.burn->t_all || in_.state.info[size_t(b)].material == 2) return false;
+    if (!in_.burn || in_.state.t >= in_.burn->t_all || in_.state.info[size_t(b)].material >= 2) return false;
     const Vec3 lower = in_.forest.lower(b);
     const double t = in_.state.t;
     if (in_.burn->phase(lower, lower + in_.forest.extent(b), t, t) == Burn::Phase::after) return false;
@@ -141,7 +141,8 @@ Asks asks_of(const Patch& p, const Medium& medium, const RefineRules& rules, int
   const BlockShape& s = p.shape();
   Asks asks;
   const bool gas = p.material != 0 && medium.is_gas[p.material - 1];
-  const int rho1 = gas && p.material == 2 ? Prim::arho2 : Prim::arho1, rho2 = gas ? -1 : int(Prim::arho2);
+  const int rho1 = gas ? medium.gas[p.material - 1].rho_row : int(Prim::arho1),
+            materials = gas ? 1 : std::max(medium.count(), 2);
   int used[3], directions = 0;
   for (int d = 0; d < 3; ++d)
     if (s.used[size_t(d)]) used[directions++] = d;
@@ -153,9 +154,11 @@ Asks asks_of(const Patch& p, const Medium& medium, const RefineRules& rules, int
         Pack most(0.0);
         for (const int q : {int(Prim::p), rho1}) {
           const double* f = p.row(q, k, j) + i;
-          const double* g = q == rho1 && rho2 >= 0 ? p.row(rho2, k, j) + i : nullptr;
+          const int parts = q == rho1 ? materials : 1;
           const auto value = [&](ptrdiff_t by) {
-            return g ? Pack::load(f + by) + Pack::load(g + by) : Pack::load(f + by);
+            Pack sum = Pack::load(f + by);
+            for (int m = 1; m < parts; ++m) sum += Pack::load(p.row(Prim::arho(m), k, j) + i + by);
+            return sum;
           };
           Pack below[3], above[3];
           for (int e = 0; e < directions; ++e) below[e] = value(-step[used[e]]), above[e] = value(step[used[e]]);

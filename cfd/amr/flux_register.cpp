@@ -4,7 +4,6 @@
 namespace bw::cfd {
 
 namespace {
-constexpr int rows = BlockChange::side_rows;
 /// The directions along a face of direction d: the faster first.
 constexpr int along[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 /// Faces of a block's side, and of the coarser level on it, in tangential direction t.
@@ -20,13 +19,14 @@ std::array<int, 3> offset_to(int d, int upper) {
 }
 }  // namespace
 
-void FluxRegister::fit(const Forest& forest) {
+void FluxRegister::fit(const Forest& forest, int variables) {
+  rows_ = variables + 1;
   forest_ = &forest;
   const BlockShape& s = forest.shape();
   size_ = 1;
   for (int d = 0; d < 3; ++d) {
     first_[size_t(d)] = size_;
-    if (s.used[size_t(d)]) size_ += coarse_count(s, d) * rows;
+    if (s.used[size_t(d)]) size_ += coarse_count(s, d) * size_t(rows_);
   }
   sides_.assign(size_t(forest.local_blocks()), 0);
   slot_.assign(size_t(forest.local_blocks()), -1);
@@ -70,7 +70,7 @@ void FluxRegister::record(int block, const BlockChange& change) {
     const int na = fine_faces(s, d, 0), a_n = coarse_faces(s, d, 0), b_n = coarse_faces(s, d, 1);
     const int two_a = na / a_n, two_b = fine_faces(s, d, 1) / b_n;
     double* out = piece(block, d);
-    for (int q = 0; q < rows; ++q) {
+    for (int q = 0; q < rows_; ++q) {
       const double* F = change.side_row(side, q);
       for (int b = 0; b < b_n; ++b)
         for (int a = 0; a < a_n; ++a) {
@@ -115,7 +115,8 @@ void FluxRegister::correct_side(int block, int d, int upper, const Patch& patch,
       };
       for (const int q : owned) {
         double by = difference(q);
-        if (q == Cons::alpha1) by -= patch.row(Prim::alpha1, cell[2], cell[1])[cell[0]] * difference(Cons::count);
+        if (Cons::is_alpha(q))
+          by -= patch.row(Prim::alpha_of(q), cell[2], cell[1])[cell[0]] * difference(change.rows);
         change.row(q, cell[2], cell[1])[cell[0]] += sign * by;
       }
     }

@@ -13,8 +13,8 @@ namespace bw::cfd {
 
 class FluxRegister {
  public:
-  /// The forest as it is now.
-  void fit(const Forest& forest);
+  /// The forest as it is now; variables of a cell.
+  void fit(const Forest& forest, int variables);
   /// Sides of a local block (bit 2 d + upper) beyond which the level changes: BlockChange::keep_sides.
   unsigned sides(int block) const { return sides_[size_t(block)]; }
   /// The block does not step.
@@ -36,6 +36,7 @@ class FluxRegister {
                     BlockChange& change) const;
 
   const Forest* forest_ = nullptr;
+  int rows_ = 0;                   ///< of a side: fluxes and the face velocity
   size_t size_ = 0;                ///< doubles per block
   std::array<size_t, 3> first_{};  ///< of direction d in them
   std::vector<uint8_t> sides_;     ///< [local]

@@ -10,10 +10,6 @@
 
 namespace bw::cfd {
 
-namespace {
-int material_of(double alpha1) { return alpha1 == 1.0 ? 1 : alpha1 == 0.0 ? 2 : 0; }
-}  // namespace
-
 void exchange_state(const Forest& forest, State& s) {
   if (forest.comm().size() == 1) return;
   forest.exchange(
@@ -52,7 +48,7 @@ int Gather::material(int block) const {
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];
       if (side.has_state() && s.used[d] && forest_.at_side(block, d, upper) &&
-          material_of(side.U[Cons::alpha1]) != m)
+          medium_.material_of(side.U) != m)
         return 0;
     }
   return m;
@@ -64,13 +60,13 @@ bool Gather::quiet(int block) const {
   if (!mine.at_rest) return false;
   for (int b : forest_.around(block)) {
     const BlockInfo& other = state_.info[size_t(b)];
-    if (!other.at_rest || !std::equal(mine.U, mine.U + Cons::count, other.U)) return false;
+    if (!other.at_rest || !std::equal(mine.U, mine.U + state_.rows(), other.U)) return false;
   }
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];
       if (side.has_state() && s.used[d] && forest_.at_side(block, d, upper) &&
-          !std::equal(mine.U, mine.U + Cons::count, side.U))
+          !std::equal(mine.U, mine.U + state_.rows(), side.U))
         return false;
     }
   return true;
@@ -159,13 +155,21 @@ void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) co
     open_sides(block, all_rows, patch);
     return;
   }
-  int cons[Cons::count], prim[Prim::stored];
-  std::iota(cons, cons + Cons::count, 0);
-  std::iota(prim, prim + Prim::stored, 0);
   std::visit(
-      [&](const auto& pair) {
-        fill_rows(block, patch, space, cons, prim, [&](const Pack(&U)[Cons::count], Pack(&W)[Prim::stored]) {
-          pair.to_primitive(U, W, medium_.floors);
+      [&]<class Mix>(const Mix& mix) {
+        constexpr int further = Prim::stored, n_W = further + (Mix::n_prim - Prim::two_rows) * (Mix::materials > 2);
+        int cons[Mix::n_cons], prim[n_W];
+        std::iota(cons, cons + Mix::n_cons, 0);
+        std::iota(prim, prim + further, 0);
+        std::iota(prim + further, prim + n_W, int(Prim::two_rows));
+        fill_rows(block, patch, space, cons, prim, [&](const Pack(&U)[Mix::n_cons], Pack(&W)[n_W]) {
+          if constexpr (Mix::materials == 2) {
+            mix.to_primitive(U, W, medium_.floors);
+          } else {
+            Pack all[Mix::n_prim];
+            mix.to_primitive(U, all, medium_.floors);
+            for (int q = 0; q < n_W; ++q) W[q] = all[prim[q]];
+          }
         });
       },
       medium_.mixture);

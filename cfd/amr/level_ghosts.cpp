@@ -40,7 +40,7 @@ void LevelGhosts::fill(const Forest& forest, const State& state, const Boundary&
   for (int o = 0; o < 27; ++o) {
     const int n = forest.neighbour(block, offset_of(o));
     if (n >= Forest::outside) continue;
-    place(offset_of(o)).resize(cells_ * Cons::count + size_t(lanes));
+    place(offset_of(o)).resize(state.block_size() + size_t(lanes));
     if (forest.jump(n).finer)
       restrict_from(forest.jump(n), offset_of(o));
     else
@@ -59,7 +59,7 @@ void LevelGhosts::restrict_from(const LevelJump& jump, const std::array<int, 3>&
       for (int i = x.first; i < x.last;) {  // the part of the row in one child
         const int high = by[0] * i >= s.n[0], end = high ? x.last : std::min(x.last, s.n[0] / by[0]);
         const int block = jump.block[size_t(high + 2 * (fj >= s.n[1]) + 4 * (fk >= s.n[2]))];
-        for (int q = 0; q < Cons::count; ++q) {
+        for (int q = 0; q < state_->rows(); ++q) {
           const double* U = state_->block(block, q);
           double* row = out + size_t(q) * cells_ + s.at(k, j, 0);
           for (int c = i; c < end; ++c)
@@ -97,7 +97,8 @@ void LevelGhosts::make_views() {
 }
 
 /// U of a cell of the next coarser level, counted from the block's lower corner.
-void LevelGhosts::read_coarse(std::array<int, 3> c, double (&U)[Cons::count]) const {
+template <int rows>
+void LevelGhosts::read_coarse(std::array<int, 3> c, double* U) const {
   const BlockShape& s = forest_->shape();
   std::array<int, 3> offset{0, 0, 0};
   if (!at_side_) {
@@ -106,7 +107,7 @@ void LevelGhosts::read_coarse(std::array<int, 3> c, double (&U)[Cons::count]) co
     const View& v = view_[size_t((offset[2] + 1) * 9 + (offset[1] + 1) * 3 + offset[0] + 1)];
     const int i = v.scale[0] * c[0] + v.shift[0], j = v.scale[1] * c[1] + v.shift[1],
               k = v.scale[2] * c[2] + v.shift[2];
-    for (int q = 0; q < Cons::count; ++q) {
+    for (int q = 0; q < rows; ++q) {
       const double* u = v.U + size_t(q) * cells_;
       U[q] = v.finer ? mean_of_children(u, s, k, j, i) : u[s.at(k, j, i)];
     }
@@ -140,7 +141,7 @@ void LevelGhosts::read_coarse(std::array<int, 3> c, double (&U)[Cons::count]) co
     else
       at[d] = c[e] - offset[e] * s.n[e] / 2 + ((forest_->place(block_)[e] + offset[e]) & 1) * s.n[e] / 2;
   }
-  for (int q = 0; q < Cons::count; ++q)
+  for (int q = 0; q < rows; ++q)
     U[q] = constant ? constant[q]
            : n >= 0 ? mean_of_children(state_->block(n, q), s, at[2], at[1], at[0])
                     : state_->block(forest_->jump(n).block[0], q)[s.at(at[2], at[1], at[0])];
@@ -155,7 +156,7 @@ const LevelGhosts::CoarseCell& LevelGhosts::coarse(const std::array<int, 3>& c, 
   CoarseCell& cell = coarse_[(size_t(c[2] + apron) * wy + size_t(c[1] + apron)) * wx + size_t(c[0] + apron)];
   if (cell.made != pass_) {
     cell.made = pass_;
-    read_coarse(c, cell.U);
+    read_coarse<Mix::n_cons>(c, cell.U);
     mix.to_primitive(cell.U, cell.W, medium_->floors);
   }
   return cell;
@@ -175,7 +176,7 @@ void LevelGhosts::prolong_to(const std::array<int, 3>& offset, const Mix& mix) {
         std::array<int, 3> c;
         for (size_t d = 0; d < 3; ++d) c[d] = s.used[d] ? (first[d] + offset[d] * s.n[d]) / 2 : 0;  // even numbers
         const CoarseCell& centre = coarse(c, mix);
-        CellSlopes slopes;
+        CellSlopes<Mix::materials> slopes;
         for (int d = 0; d < 3; ++d) {
           if (!s.used[size_t(d)]) continue;
           std::array<int, 3> below = c, above = c;
@@ -184,14 +185,14 @@ void LevelGhosts::prolong_to(const std::array<int, 3>& offset, const Mix& mix) {
         }
         const size_t here = s.at(k, j, i);
         for (int first_child = 0; first_child < children_.count; first_child += Pack::size) {
-          Pack U[Cons::count], W[Prim::stored];
+          Pack U[Mix::n_cons], W[Mix::n_prim];
           if (slopes.any) {
             slopes.children(centre.W, children_, first_child, W);
             mix.to_conserved(W, U);
           } else {
-            for (int q = 0; q < Cons::count; ++q) U[q] = Pack(centre.U[q]);
+            for (int q = 0; q < Mix::n_cons; ++q) U[q] = Pack(centre.U[q]);
           }
-          for (int q = 0; q < Cons::count; ++q) {
+          for (int q = 0; q < Mix::n_cons; ++q) {
             double* to = out + size_t(q) * cells_ + here;
             for (int l = 0; l < std::min(Pack::size, children_.count - first_child); ++l)
               to[children_.cells[first_child + l]] = U[q][l];

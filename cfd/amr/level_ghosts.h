@@ -39,7 +39,7 @@ class LevelGhosts {
  private:
   struct CoarseCell {
     uint64_t made = 0;
-    double U[Cons::count], W[Prim::stored];
+    double U[Cons::most], W[Prim::most];
   };
   void restrict_from(const LevelJump& jump, const std::array<int, 3>& offset);
   template <class Mix>
@@ -47,7 +47,8 @@ class LevelGhosts {
   template <class Mix>
   const CoarseCell& coarse(const std::array<int, 3>& c, const Mix& mix);
   void make_views();
-  void read_coarse(std::array<int, 3> c, double (&U)[Cons::count]) const;
+  template <int rows>
+  void read_coarse(std::array<int, 3> c, double* U) const;
   std::vector<double>& place(const std::array<int, 3>& d);
 
   const Forest* forest_ = nullptr;

@@ -35,30 +35,51 @@ struct Children {
   size_t cells[8] = {};
 };
 
-/// Limited slopes of what is carried to finer cells: the variables before Prim::Pi (that one follows).
+/// Limited slopes of what is carried to finer cells: the variables before Prim::Pi (that one follows), and the further
+/// ones of K > 2 materials.
+template <int K>
 struct CellSlopes {
-  static constexpr int n = Prim::Pi;
+  static constexpr int n = Prim::Pi + (K > 2 ? FaceRow::rows(K) - Prim::count : 0);
+  /// The row of Prim.
+  static constexpr int row(int q) { return q < Prim::Pi ? q : FaceRow::prim(q + 1); }
   double slope[3][n] = {};
   bool any = false;
   void set(int d, const double* below, const double* here, const double* above) {
     for (int q = 0; q < n; ++q) {
-      slope[d][q] = minmod(here[q] - below[q], above[q] - here[q]);
+      slope[d][q] = minmod(here[row(q)] - below[row(q)], above[row(q)] - here[row(q)]);
       any = any || slope[d][q] != 0;
     }
+    if constexpr (K > 2) balance(slope[d]);
   }
   /// W of Pack::size children from `first` on.
-  void children(const double* W, const Children& all, int first, Pack (&out)[Prim::stored]) const {
+  void children(const double* W, const Children& all, int first, Pack* out) const {
     const Pack x = Pack::load(all.off[0] + first), y = Pack::load(all.off[1] + first),
                z = Pack::load(all.off[2] + first);
     for (int q = 0; q < n; ++q)
-      out[q] = Pack(W[q]) + x * Pack(slope[0][q]) + y * Pack(slope[1][q]) + z * Pack(slope[2][q]);
+      out[row(q)] = Pack(W[row(q)]) + x * Pack(slope[0][q]) + y * Pack(slope[1][q]) + z * Pack(slope[2][q]);
   }
   /// W of the child at side[d] (-1, 1; 0 in unused directions) of a cell.
-  void child(const double* W, const int (&side)[3], double (&out)[Prim::stored]) const {
+  void child(const double* W, const int (&side)[3], double* out) const {
     for (int q = 0; q < n; ++q) {
       double change = 0;
       for (int d = 0; d < 3; ++d) change += side[d] * slope[d][q];
-      out[q] = W[q] + 0.25 * change;
+      out[row(q)] = W[row(q)] + 0.25 * change;
+    }
+  }
+
+ private:
+  /// As ManyFlow::balance.
+  static void balance(double (&s)[n]) {
+    const auto at = [](int face_row) { return face_row < Prim::Pi ? face_row : face_row - 1; };
+    double rise = 0, fall = 0;
+    for (int k = 0; k < K; ++k) {
+      const double a = s[at(FaceRow::alpha(k))];
+      (a > 0 ? rise : fall) += std::abs(a);
+    }
+    const double share = std::min(rise, fall) / std::max(std::max(rise, fall), 1e-300);
+    for (int k = 0; k < K; ++k) {
+      const double a = s[at(FaceRow::alpha(k))];
+      if (rise > fall ? a > 0 : a < 0) s[at(FaceRow::alpha(k))] *= share, s[at(FaceRow::arho(k))] *= share;
     }
   }
 };
@@ -94,22 +115,28 @@ inline int child_count(const BlockShape& s) { return 1 << (int(s.used[0]) + int(
 /// more: energy per mass of material 1 stored at the child above that stored at the cell [J/kg]. Children that would
 /// leave the range of states become copies of the cell.
 template <class Mix>
-void split_cell(const Mix& mix, double p_floor, const BlockShape& shape, const double (&U)[Cons::count],
-                const double* W, const CellSlopes& slopes, const double (&more)[8], double (&out)[8][Cons::count]) {
+void split_cell(const Mix& mix, double p_floor, const BlockShape& shape, const double (&U)[Mix::n_cons],
+                const double* W, const CellSlopes<Mix::materials>& slopes, const double (&more)[8],
+                double (&out)[8][Mix::n_cons]) {
   const int n = child_count(shape);
   double kept = 0;
   for (int i = 0; i < n; ++i) kept += more[i] * U[Cons::arho1] / n;
   const auto copy = [&] {
     for (int i = 0; i < n; ++i)
-      for (int q = 0; q < Cons::count; ++q) out[i][q] = U[q] - (q == Cons::rhoE ? kept : 0.0);
+      for (int q = 0; q < Mix::n_cons; ++q) out[i][q] = U[q] - (q == Cons::rhoE ? kept : 0.0);
   };
   if (!slopes.any) return copy();
-  double w[8][Prim::stored], shift[3];
+  double w[8][Mix::n_prim], shift[3];
   for_each_child(shape, [&](int i, const int(&)[3], const int(&side)[3]) { slopes.child(W, side, w[i]); });
-  const double rho = U[Cons::arho1] + U[Cons::arho2];
+  double rho = U[Cons::arho1] + U[Cons::arho2];
+  for (int k = 2; k < Mix::materials; ++k) rho += U[Cons::arho(k)];
   for (int d = 0; d < 3; ++d) {
     double mean = 0;
-    for (int i = 0; i < n; ++i) mean += (w[i][Prim::arho1] + w[i][Prim::arho2]) * w[i][Prim::v + d] / n;
+    for (int i = 0; i < n; ++i) {
+      double own = w[i][Prim::arho1] + w[i][Prim::arho2];
+      for (int k = 2; k < Mix::materials; ++k) own += w[i][Prim::arho(k)];
+      mean += own * w[i][Prim::v + d] / n;
+    }
     shift[d] = (U[Cons::mom + d] - mean) / rho;
   }
   double energy = 0, stiffness = 0;
@@ -117,13 +144,13 @@ void split_cell(const Mix& mix, double p_floor, const BlockShape& shape, const d
     for (int d = 0; d < 3; ++d) w[i][Prim::v + d] += shift[d];
     mix.to_conserved(w[i], out[i]);
     energy += (out[i][Cons::rhoE] + more[i] * out[i][Cons::arho1]) / n;
-    stiffness += mix.closure().G(w[i][Prim::alpha1], w[i][Prim::arho1], w[i][Prim::arho2]) / n;
+    stiffness += mix.G(w[i]) / n;
   }
   const double p_shift = (U[Cons::rhoE] - energy) / stiffness;
   bool fine = std::isfinite(p_shift);
   for (int i = 0; i < n; ++i) {
     fine = fine && w[i][Prim::p] + p_shift > std::max(p_floor, 0.1 * W[Prim::p]);
-    out[i][Cons::rhoE] += p_shift * mix.closure().G(w[i][Prim::alpha1], w[i][Prim::arho1], w[i][Prim::arho2]);
+    out[i][Cons::rhoE] += p_shift * mix.G(w[i]);
   }
   if (!fine) copy();
 }

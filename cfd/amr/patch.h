@@ -62,12 +62,12 @@ inline size_t spread(size_t n) { return (n + 455) / 512 * 512 + 56; }
 class Patch {
  public:
   Patch() = default;
-  explicit Patch(const BlockShape& shape) : shape_(shape) {
+  explicit Patch(const BlockShape& shape, int materials = 2) : shape_(shape) {
     pitch_ = (margin + shape.n[0] + margin_right + 7) / 8 * 8;
     rows_j_ = shape.n[1] + 2 * shape.ghost(1);
     rows_k_ = shape.n[2] + 2 * shape.ghost(2);
     stride_ = spread(size_t(pitch_) * rows_j_ * rows_k_);
-    data_.assign(stride_ * Prim::rows, 0.0);
+    data_.assign(stride_ * size_t(Prim::rows(materials)), 0.0);
   }
   const BlockShape& shape() const { return shape_; }
   void set_cell_size(const Vec3& h) { shape_.h = h; }
@@ -87,7 +87,7 @@ class Patch {
   bool burns = false;    ///< row Prim::stored_energy is filled
   bool limited = false;  ///< row Prim::order is filled
   bool shocked = false;  ///< row Prim::shock is filled
-  int material = 0;  ///< 1 or 2: the block and all ghosts hold this material alone (alpha1 exactly 1 or 0); 0: mixed
+  int material = 0;  ///< 1, 2 ...: the block and all ghosts hold this material alone (alpha exactly 1 or 0); 0: mixed
 
  private:
   size_t offset(int variable, int k, int j) const {

@@ -26,7 +26,7 @@ void advance_radial(const Patch& patch, const Medium& medium, double dt, unsigne
   if (m != 0 && medium.is_gas[m - 1])
     kernels.gas.advance(patch, medium.gas[m - 1], dt, mirror, change);
   else
-    kernels.mixed.advance(patch, medium.mixed(), dt, mirror, change);
+    kernels.mixed.advance(patch, mixed_flow(medium), dt, mirror, change);
 }
 
 }  // namespace bw::cfd

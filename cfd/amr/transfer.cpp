@@ -47,7 +47,7 @@ class Transfer {
 
   void split(const Split& job, Space& space) const {
     const Gather gather(forest_, state_, in_.boundary, in_.medium);
-    if (space.patch.pitch() == 0) space.patch = Patch(forest_.shape());
+    if (space.patch.pitch() == 0) space.patch = Patch(forest_.shape(), in_.medium.count());
     gather.fill(job.old, space.patch, space.ghosts, true);
     std::visit([&](const auto& mix) { split_cells(mix, job, space.patch); }, in_.medium.mixture);
   }
@@ -71,7 +71,7 @@ class Transfer {
             const int f[3] = {step[0] * i, step[1] * j, step[2] * k};
             const int c[3] = {first[0] + i, first[1] + j, first[2] + k};
             double* out = job.to + s.at(c[2], c[1], c[0]);
-            for (int q = 0; q < Cons::count; ++q)
+            for (int q = 0; q < state_.rows(); ++q)
               out[size_t(q) * cells_] = mean_of_children(state_.block(b, q), s, f[2], f[1], f[0]);
             if (stored_.any())
               out[size_t(Cons::rhoE) * cells_] += stored_above(b, f, stored_.at(lower, h, c[2], c[1], c[0]));
@@ -99,20 +99,21 @@ class Transfer {
       if (s.used[size_t(d)]) h[d] *= 0.5;
     const Vec3 lower = forest_.lower(job.old);
     const ptrdiff_t step[3] = {1, patch.stride_j(), patch.stride_k()}, row = patch.stride_variable();
-    const auto read = [&](const double* p, double(&W)[Prim::stored]) {
+    const auto read = [&](const double* p, double* W) {
       for (int q = 0; q < Prim::stored; ++q) W[q] = p[q * row];
+      for (int q = Prim::two_rows; q < Mix::n_prim; ++q) W[q] = p[q * row];
     };
     for (int k = 0; k < s.n[2]; ++k)
       for (int j = 0; j < s.n[1]; ++j)
         for (int i = 0; i < s.n[0]; ++i) {
-          double U[Cons::count], W[Prim::stored], out[8][Cons::count], more[8] = {};
-          for (int q = 0; q < Cons::count; ++q) U[q] = state_.block(job.old, q)[s.at(k, j, i)];
+          double U[Mix::n_cons], W[Mix::n_prim], out[8][Mix::n_cons], more[8] = {};
+          for (int q = 0; q < Mix::n_cons; ++q) U[q] = state_.block(job.old, q)[s.at(k, j, i)];
           const double* here = patch.row(0, k, j) + i;
           read(here, W);
-          CellSlopes slopes;
+          CellSlopes<Mix::materials> slopes;
           for (int d = 0; d < 3; ++d) {
             if (!s.used[size_t(d)]) continue;
-            double below[Prim::stored], above[Prim::stored];
+            double below[Mix::n_prim], above[Mix::n_prim];
             read(here - step[d], below), read(here + step[d], above);
             slopes.set(d, below, W, above);
           }
@@ -135,7 +136,7 @@ class Transfer {
               if (s.used[size_t(d)]) block = 2 * block + size_t(at[d] >= s.n[size_t(d)]);
               at[d] %= s.n[size_t(d)];
             }
-            for (int q = 0; q < Cons::count; ++q)
+            for (int q = 0; q < Mix::n_cons; ++q)
               job.to[block][size_t(q) * cells_ + s.at(at[2], at[1], at[0])] = out[child][q];
           });
         }

@@ -12,7 +12,11 @@ namespace {
 
 /// Extremes of a block, lane by lane.
 struct Extremes {
-  Pack rate = Pack(0.0), p_max = Pack(0.0), alpha_min = Pack(2.0), alpha_max = Pack(-1.0);
+  Pack rate = Pack(0.0), p_max = Pack(0.0);
+  struct Range {
+    Pack min = Pack(2.0), max = Pack(-1.0);
+  };
+  Range alpha[most_materials];  ///< of two materials, the first's alone
 };
 
 /// Lanes at and beyond `left` are neutral.
@@ -23,24 +27,33 @@ Pack first_lanes(Pack a, int left, double neutral) {
 
 template <class Pair>
 class Update {
+  static constexpr int rows = Pair::n_cons, materials = Pair::materials, fractions = materials > 2 ? materials : 1;
+
  public:
   Update(const UpdateInput& in, const Pair& pair, const BlockShape& shape, const Vec3& lower)
       : in_(in), pair_(pair), floors_(in.medium->floors), shape_(shape), lower_(lower) {}
 
   /// All rows: traces, floors and the state's limits cell by cell where a pack needs it.
-  void mixed_row(double* const (&row)[Cons::count], int k, int j, std::vector<uint8_t>& marks, Booked& booked,
+  void mixed_row(double* const (&row)[Cons::most], int k, int j, std::vector<uint8_t>& marks, Booked& booked,
                  UpdateResult& result, Extremes& extremes) {
     for (int i = 0; i < shape_.n[0]; i += Pack::size) {
-      Pack U[Cons::count], W[Prim::stored];
-      for (int q = 0; q < Cons::count; ++q) U[q] = Pack::load(row[q] + i);
+      Pack U[rows], W[Pair::n_prim];
+      for (int q = 0; q < rows; ++q) U[q] = Pack::load(row[q] + i);
       const int left = shape_.n[0] - i;
       Pack p = pair_.to_primitive(U, W, floors_);
-      const Pack alpha1 = U[Cons::alpha1], alpha2 = Pack(1.0) - alpha1;
-      const Mask none_1 = (alpha1 >= Pack(0.0)) & (alpha1 <= Pack(0.0)),
-                 none_2 = (alpha2 >= Pack(0.0)) & (alpha2 <= Pack(0.0));
-      const Mask trace = ((alpha1 < Pack(alpha_trace)) & !none_1) | ((alpha2 < Pack(alpha_trace)) & !none_2);
-      const Mask fine = (p >= Pack(floors_.p)) & (U[Cons::arho1] >= Pack(0.0)) & (U[Cons::arho2] >= Pack(0.0)) &
-                        (U[Cons::arho1] + U[Cons::arho2] >= Pack(floors_.rho)) & !trace;
+      const auto alpha = [&](int m) {
+        return materials == 2 && m == 1 ? Pack(1.0) - U[Cons::alpha1] : U[Cons::alpha(m)];
+      };
+      const auto is_trace = [&](Pack a) { return (a < Pack(alpha_trace)) & !((a >= Pack(0.0)) & (a <= Pack(0.0))); };
+      Mask trace = is_trace(alpha(0)) | is_trace(alpha(1));
+      Mask fine = (p >= Pack(floors_.p)) & (U[Cons::arho1] >= Pack(0.0)) & (U[Cons::arho2] >= Pack(0.0));
+      Pack rho = U[Cons::arho1] + U[Cons::arho2];
+      for (int m = 2; m < materials; ++m) {
+        trace = trace | is_trace(alpha(m));
+        fine = fine & (U[Cons::arho(m)] >= Pack(0.0));
+        rho += U[Cons::arho(m)];
+      }
+      fine = fine & (rho >= Pack(floors_.rho)) & !trace;
       const bool skip = in_.blocked && any_blocked(shape_.at(k, j, i), left);
       if (!all(fine) || skip) {
         for (int l = 0; l < std::min(left, Pack::size); ++l) {
@@ -51,12 +64,15 @@ class Update {
             mend_cell(row, i + l, cell, k, j, W, l, marks, booked, result);
         }
         for (int l = 0; l < std::min(left, Pack::size); ++l)
-          if (!in_.blocked || !in_.blocked[shape_.at(k, j, i + l)]) note_alpha(row[Cons::alpha1][i + l], extremes);
+          if (!in_.blocked || !in_.blocked[shape_.at(k, j, i + l)]) note_alpha(row, i + l, extremes);
       } else if (left < Pack::size) {
-        for (int l = 0; l < left; ++l) note_alpha(row[Cons::alpha1][i + l], extremes);
+        for (int l = 0; l < left; ++l) note_alpha(row, i + l, extremes);
       } else {
-        extremes.alpha_min = min(extremes.alpha_min, alpha1);
-        extremes.alpha_max = max(extremes.alpha_max, alpha1);
+        for (int m = 0; m < fractions; ++m) {
+          Extremes::Range& range = extremes.alpha[m];
+          range.min = min(range.min, U[Cons::alpha(m)]);
+          range.max = max(range.max, U[Cons::alpha(m)]);
+        }
       }
       extremes.rate = max(extremes.rate, first_lanes(rate(&W[Prim::v], W[Prim::c]), left, 0.0));
       extremes.p_max = max(extremes.p_max, first_lanes(p, left, 0.0));
@@ -88,11 +104,11 @@ class Update {
         else
           for (int l = 0; l < left; ++l) to[q][i + l] = U[q][l];
       if (!all(fine)) {
-        double* row[Cons::count];
-        for (int q = 0; q < Cons::count; ++q) row[q] = out + size_t(q) * cells + first;
+        double* row[Cons::most];
+        for (int q = 0; q < rows; ++q) row[q] = out + size_t(q) * cells + first;
         for (int l = 0; l < std::min(left, w); ++l)
           if (!fine[l]) {
-            Pack all_W[Prim::stored];
+            Pack all_W[Pair::n_prim];
             mend_cell(row, i + l, first + size_t(i + l), k, j, all_W, l, marks, booked, result);
             for (int q = 1; q < GasPrim::count; ++q) W[q].set(l, all_W[gas.prim_row(q)][l]);
             W[GasPrim::c].set(l, all_W[Prim::c][l]);
@@ -115,9 +131,12 @@ class Update {
     for (int l = 0; l < std::min(left, Pack::size); ++l) some = some || in_.blocked[cell + size_t(l)];
     return some;
   }
-  static void note_alpha(double alpha1, Extremes& e) {
-    e.alpha_min = min(e.alpha_min, Pack(alpha1));
-    e.alpha_max = max(e.alpha_max, Pack(alpha1));
+  static void note_alpha(double* const (&row)[Cons::most], int i, Extremes& e) {
+    for (int m = 0; m < fractions; ++m) {
+      const Pack a(row[Cons::alpha(m)][i]);
+      e.alpha[m].min = min(e.alpha[m].min, a);
+      e.alpha[m].max = max(e.alpha[m].max, a);
+    }
   }
   /// Energy per mass of explosive that is still to be released.
   double stored(int k, int j, int i) const {
@@ -127,20 +146,19 @@ class Update {
   }
 
   /// A cell with a trace, a floor or a broken state; sets lane l of W to what it became.
-  void mend_cell(double* const (&row)[Cons::count], int i, size_t cell, int k, int j, Pack (&W)[Prim::stored], int l,
+  void mend_cell(double* const (&row)[Cons::most], int i, size_t cell, int k, int j, Pack (&W)[Pair::n_prim], int l,
                  std::vector<uint8_t>& marks, Booked& booked, UpdateResult& result) {
-    double U[Cons::count], w[Prim::stored];
-    for (int q = 0; q < Cons::count; ++q) U[q] = row[q][i];
+    double U[rows], w[Pair::n_prim] = {};
+    for (int q = 0; q < rows; ++q) U[q] = row[q][i];
     double p = pair_.to_primitive(U, w, floors_);
     volume_ = shape_.cell_volume(lower_.x, i);
-    const double rho = U[Cons::arho1] + U[Cons::arho2];
-    if (std::isfinite(p) && rho >= floors_.rho && remove_trace(U, w, booked)) {
+    if (std::isfinite(p) && density(U) >= floors_.rho && remove_trace(U, w, booked)) {
       p = pair_.to_primitive(U, w, floors_);
       booked.cleaned[Cons::rhoE] += (row[Cons::arho1][i] - U[Cons::arho1]) * stored(k, j, i) * volume_;
     }
     const bool stores_energy = U[Cons::arho1] > 0 && stored(k, j, i) > 0;
-    const bool broken = !(U[Cons::arho1] + U[Cons::arho2] >= floors_.rho) || !(U[Cons::arho1] >= 0) ||
-                        !(U[Cons::arho2] >= 0) || !std::isfinite(p);
+    bool broken = !(density(U) >= floors_.rho) || !std::isfinite(p);
+    for (int m = 0; m < materials; ++m) broken = broken || !(U[Cons::arho(m)] >= 0);
     const bool low = !(p >= floors_.p) && !stores_energy;
     if (broken || (low && !in_.last_try)) {
       if (marks.empty()) marks.assign(size_t(shape_.cells()), 0);
@@ -152,12 +170,18 @@ class Update {
       booked.floor_energy += (U[Cons::rhoE] - before) * volume_;
       ++booked.floors;
     }
-    for (int q = 0; q < Cons::count; ++q) row[q][i] = U[q];
-    for (int q = 0; q < Prim::stored; ++q) W[q].set(l, w[q]);
+    for (int q = 0; q < rows; ++q) row[q][i] = U[q];
+    for (int q = 0; q < Pair::n_prim; ++q) W[q].set(l, w[q]);
+  }
+  static double density(const double (&U)[rows]) {
+    double rho = U[Cons::arho1] + U[Cons::arho2];
+    for (int m = 2; m < materials; ++m) rho += U[Cons::arho(m)];
+    return rho;
   }
 
   /// Takes a material out of the cell where its volume fraction is a trace; p and v stay. false: nothing to remove.
-  bool remove_trace(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
+  bool remove_trace(double (&U)[rows], double (&w)[Pair::n_prim], Booked& booked) const {
+    if constexpr (materials > 2) return remove_traces(U, w, booked);
     const double alpha1 = U[Cons::alpha1];
     if (alpha1 == 0 || alpha1 == 1 || (alpha1 >= alpha_trace && 1 - alpha1 >= alpha_trace)) {
       // round-off may leave a tiny density without volume behind
@@ -167,17 +191,37 @@ class Update {
     }
     return empty(U, w, alpha1 < alpha_trace ? 0 : 1, booked);
   }
+  /// The same of more than two: what is left keeps its densities and proportions.
+  bool remove_traces(double (&U)[rows], double (&w)[Pair::n_prim], Booked& booked) const {
+    double left = 0;
+    int kept = 0, last = 0;
+    bool some = false;
+    for (int m = 0; m < materials; ++m) {
+      double &alpha = w[Prim::alpha(m)], &arho = w[Prim::arho(m)];
+      if (alpha >= alpha_trace) {
+        left += alpha, ++kept, last = m;
+      } else if (alpha != 0 || arho != 0) {
+        alpha = arho = 0;
+        some = true;
+      }
+    }
+    if (!some) return empty_negative(U, w, booked);
+    if (kept == 0) return false;
+    for (int m = 0; m < materials; ++m) w[Prim::arho(m)] /= left, w[Prim::alpha(m)] /= left;
+    if (kept == 1) w[Prim::alpha(last)] = 1;
+    return settle(U, w, booked);
+  }
   /// A density just below zero beside a small volume fraction.
-  bool empty_negative(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
-    const double rho = U[Cons::arho1] + U[Cons::arho2];
-    for (int m = 0; m < 2; ++m)
-      if (U[m] < 0 && U[m] > -1e-6 * rho) {
-        w[Prim::arho1 + m] = 0;
+  bool empty_negative(double (&U)[rows], double (&w)[Pair::n_prim], Booked& booked) const {
+    const double rho = density(U);
+    for (int m = 0; m < materials; ++m)
+      if (U[Cons::arho(m)] < 0 && U[Cons::arho(m)] > -1e-6 * rho) {
+        w[Prim::arho(m)] = 0;
         return settle(U, w, booked);
       }
     return false;
   }
-  bool empty(double (&U)[Cons::count], double (&w)[Prim::stored], int m, Booked& booked) const {
+  bool empty(double (&U)[rows], double (&w)[Pair::n_prim], int m, Booked& booked) const {
     // the other material keeps its own density: of a stiff one, 1e-8 less is a pressure
     const double other = m == 0 ? 1 - U[Cons::alpha1] : U[Cons::alpha1];
     w[Prim::arho1 + m] = 0;
@@ -185,10 +229,10 @@ class Update {
     w[Prim::alpha1] = m == 0 ? 0 : 1;
     return settle(U, w, booked);
   }
-  bool settle(double (&U)[Cons::count], double (&w)[Prim::stored], Booked& booked) const {
-    double after[Cons::count];
+  bool settle(double (&U)[rows], double (&w)[Pair::n_prim], Booked& booked) const {
+    double after[rows];
     pair_.to_conserved(w, after);
-    for (int q = 0; q < Cons::count; ++q) {
+    for (int q = 0; q < rows; ++q) {
       booked.cleaned[q] += (U[q] - after[q]) * volume_;
       U[q] = after[q];
     }
@@ -204,18 +248,24 @@ class Update {
 };
 
 /// One material, the same bits everywhere, no momentum?
-void describe_block(const BlockShape& s, const double* U, bool whole, const Extremes& e, BlockInfo& info) {
-  double low = 2, high = -1;
+void describe_block(const BlockShape& s, int materials, const double* U, bool whole, const Extremes& e,
+                    BlockInfo& info) {
   info.rate = info.p_max = 0;
   for (int l = 0; l < Pack::size; ++l) {
     info.rate = std::max(info.rate, e.rate[l]);
     info.p_max = std::max(info.p_max, e.p_max[l]);
-    low = std::min(low, e.alpha_min[l]), high = std::max(high, e.alpha_max[l]);
   }
-  info.material = low == 1 && high == 1 ? 1 : low == 0 && high == 0 ? 2 : 0;
+  info.material = 0;
+  for (int m = 0; m < (materials > 2 ? materials : 1); ++m) {
+    double low = 2, high = -1;
+    for (int l = 0; l < Pack::size; ++l)
+      low = std::min(low, e.alpha[m].min[l]), high = std::max(high, e.alpha[m].max[l]);
+    if (low == 1 && high == 1) info.material = m + 1;
+    if (materials <= 2 && low == 0 && high == 0) info.material = 2;
+  }
   const size_t n = size_t(s.cells());
   bool rest = whole;
-  for (int q = 0; q < Cons::count; ++q) {
+  for (int q = 0; q < Cons::rows(materials); ++q) {
     info.U[q] = U[size_t(q) * n];
     if (q >= Cons::mom && q <= Cons::mom_z) rest = rest && info.U[q] == 0;
     if (rest) rest = std::memcmp(U + size_t(q) * n, U + size_t(q) * n + 1, (n - 1) * sizeof(double)) == 0;
@@ -228,8 +278,8 @@ template <class Pair>
 double rate_near_centre(const Pair& pair, const Floors& floors, const BlockShape& s, double lower, const double* U) {
   double most = 0;
   for (int i = 0; i < std::min(4, s.n[0]); ++i) {
-    double u[Cons::count], W[Prim::stored];
-    for (int q = 0; q < Cons::count; ++q) u[q] = U[q * s.n[0] + i];
+    double u[Pair::n_cons], W[Pair::n_prim];
+    for (int q = 0; q < Pair::n_cons; ++q) u[q] = U[q * s.n[0] + i];
     pair.to_primitive(u, W, floors);
     const double r = lower + i * s.h.x, faces = 0.5 * (area_at(s.geometry, r) + area_at(s.geometry, r + s.h.x)) * s.h.x;
     const double height = s.geometry == Geometry::cylindrical ? s.h.z : 1;
@@ -273,21 +323,25 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
   const bool gas = by_gas_kernel && !in.burns && !in.blocked;
   UpdateResult result;
   result.gas = gas ? m : 0;
+  const int variables = in.medium->rows(), materials = in.medium->count();
   Extremes extremes;
-  if (gas) extremes.alpha_min = extremes.alpha_max = Pack(m == 1 ? 1.0 : 0.0);
+  if (gas)
+    for (int a = 0; a < (materials > 2 ? materials : 1); ++a)
+      extremes.alpha[a].min = extremes.alpha[a].max = Pack(a == m - 1 ? 1.0 : 0.0);
   thread_local Aligned<double> rows;
   const size_t pitch = size_t(change.pitch);
-  rows.resize(pitch * Cons::count);
-  double* row[Cons::count];
-  for (int q = 0; q < Cons::count; ++q) row[q] = rows.data() + pitch * size_t(q);
+  rows.resize(pitch * size_t(variables));
+  double* row[Cons::most];
+  for (int q = 0; q < variables; ++q) row[q] = rows.data() + pitch * size_t(q);
   std::visit(
       [&](const auto& pair) {
         Update update(in, pair, s, patch.lower);
         if (gas) {
           const GasFlow& flow = in.medium->gas[m - 1];
           if (!in.others_hold)
-            for (int q : {m == 1 ? int(Cons::arho2) : int(Cons::arho1), int(Cons::alpha1)})
-              std::memcpy(out + size_t(q) * cells, U + size_t(q) * cells, cells * sizeof(double));
+            for (int q = 0; q < variables; ++q)
+              if (q != flow.rho_cons && (q < Cons::mom || q > Cons::rhoE))
+                std::memcpy(out + size_t(q) * cells, U + size_t(q) * cells, cells * sizeof(double));
           for (int k = 0; k < s.n[2]; ++k)
             for (int j = 0; j < s.n[1]; ++j)
               update.gas_row(flow, U, change, out, k, j, marks, booked, result, extremes);
@@ -295,10 +349,10 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
         }
         for (int k = 0; k < s.n[2]; ++k)
           for (int j = 0; j < s.n[1]; ++j) {
-            for (int q = 0; q < Cons::count; ++q) {
+            for (int q = 0; q < variables; ++q) {
               const double* old = U + size_t(q) * cells + s.at(k, j, 0);
               const double* d = change.row(q, k, j);
-              if (!by_gas_kernel || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_row)
+              if (!by_gas_kernel || (q >= Cons::mom && q <= Cons::rhoE) || q == in.medium->gas[m - 1].rho_cons)
                 for (int i = 0; i < s.n[0]; ++i) row[q][i] = old[i] + d[i];
               else
                 std::memcpy(row[q], old, size_t(s.n[0]) * sizeof(double));
@@ -306,16 +360,16 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
             if (in.blocked)
               for (int i = 0; i < s.n[0]; ++i)
                 if (in.blocked[s.at(k, j, i)])
-                  for (int q = 0; q < Cons::count; ++q) row[q][i] = U[size_t(q) * cells + s.at(k, j, i)];
+                  for (int q = 0; q < variables; ++q) row[q][i] = U[size_t(q) * cells + s.at(k, j, i)];
             if (in.burns) release(in, patch, k, j, U + s.at(k, j, 0), row[Cons::arho1], row[Cons::rhoE]);
-            if (in.heat > 0 && m != 2) burn_on(in, patch, k, j, row[Cons::arho1], row[Cons::rhoE], booked);
+            if (in.heat > 0 && m < 2) burn_on(in, patch, k, j, row[Cons::arho1], row[Cons::rhoE], booked);
             update.mixed_row(row, k, j, marks, booked, result, extremes);
-            for (int q = 0; q < Cons::count; ++q)
+            for (int q = 0; q < variables; ++q)
               std::memcpy(out + size_t(q) * cells + s.at(k, j, 0), row[q], size_t(s.n[0]) * sizeof(double));
           }
       },
       in.medium->mixture);
-  describe_block(s, out, in.blocked == nullptr, extremes, result.info);
+  describe_block(s, materials, out, in.blocked == nullptr, extremes, result.info);
   if (s.radial())
     std::visit(
         [&](const auto& pair) {
@@ -332,10 +386,10 @@ BlockInfo inspect_block(const Medium& medium, const BlockShape& shape, const Vec
   in.medium = &medium;
   in.blocked = blocked;
   in.last_try = true;
-  BlockChange none(shape);
-  Patch patch(shape);
+  BlockChange none(shape, medium.count());
+  Patch patch(shape, medium.count());
   patch.lower = lower;
-  Aligned<double> copy(size_t(shape.cells()) * Cons::count);
+  Aligned<double> copy(size_t(shape.cells()) * size_t(medium.rows()));
   std::vector<uint8_t> marks;
   Booked unused;
   return update_block(in, patch, U, none, copy.data(), marks, unused).info;

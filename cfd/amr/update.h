@@ -18,7 +18,7 @@ struct UpdateInput {
   bool burns = false;          ///< lambda changes in this block
   double t0 = 0, t1 = 0;       ///< the step [s]
   bool last_try = false;       ///< p below its floor is lifted (and booked) instead of marked
-  /// One gas: the spare copy's rows of the other material and of alpha1 are those of the state.
+  /// One gas: the spare copy's rows of other materials and of volume fractions are those of the state.
   bool others_hold = false;
   const uint8_t* blocked = nullptr;  ///< [cell] cells that hold no fluid: left as they are; nullptr: none
   double heat = 0;                   ///< J/kg that material 1 releases in the step besides the burn: booked
@@ -26,7 +26,7 @@ struct UpdateInput {
 
 struct UpdateResult {
   BlockInfo info;
-  int gas = 0;         ///< 1 or 2: the whole block was updated as this gas alone
+  int gas = 0;         ///< 1, 2 ...: the whole block was updated as this gas alone
   int64_t bad = 0;     ///< cells whose state can't be used; marked
   int first_bad = -1;  ///< the first of them
 };

@@ -391,8 +391,8 @@ void CutCellKernel::book_sides(BlockChange& change) {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       if (!shape_.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
-      double(&sum)[Cons::count] = change.side[2 * d + upper];
-      std::fill(sum, sum + Cons::count, 0.0);
+      double(&sum)[Cons::most] = change.side[2 * d + upper];
+      std::fill(sum, sum + change.rows, 0.0);
       Index3 first{0, 0, 0}, last = shape_.n;
       (upper ? first : last)[size_t(d)] = upper ? shape_.n[size_t(d)] - 1 : 1;
       for (int k = first[2]; k < last[2]; ++k)

@@ -175,7 +175,7 @@ class CutKernel {
     for (int q = 0; q < n_flux; ++q) {
       double change = f.F[q];
       if constexpr (Flow::mixed)
-        if (q == Cons::alpha1) change -= row_[Prim::alpha1][x.p] * f.v;
+        if (Cons::is_alpha(q)) change -= row_[q == Cons::alpha1 ? int(Prim::alpha1) : q + 1][x.p] * f.v;
       change_->row(flow_->cons_row(q), 0, 0)[at] += sign * change;
     }
   }
@@ -225,6 +225,11 @@ class CutKernel {
       const State a = low ? ghost(x, mean, d, 0) : read(moved(x, d, -1)),
                   b = high ? ghost(x, mean, d, 1) : read(moved(x, d, 1));
       for (size_t q = 0; q < size_t(n); ++q) r.slope[d][q] = MonotonizedCentral::slope(mean[q] - a[q], b[q] - mean[q]);
+      if constexpr (Flow::materials > 2)
+        flow_->balance(r.slope[d], [&](int k) {
+          const auto part = [&](const State& w) { return gas_->eos.part(w, k).pi; };
+          return MonotonizedCentral::slope(part(mean) - part(a), part(b) - part(mean));
+        });
     }
     Flow::predict(half, r.slope, half_lambda_, patch_->row(Prim::rho_c2, 0, 0)[x.p], patch_->row(Prim::dPi, 0, 0)[x.p]);
     if (patch_->limited) {
@@ -288,7 +293,9 @@ class CutKernel {
   }
 
   Sound<double> sound(Cell x) const {
-    return {patch_->row(Prim::c, 0, 0)[x.p], patch_->row(Prim::arho1, 0, 0)[x.p] + patch_->row(Prim::arho2, 0, 0)[x.p]};
+    double rho = patch_->row(Prim::arho1, 0, 0)[x.p] + patch_->row(Prim::arho2, 0, 0)[x.p];
+    for (int k = 2; k < Flow::materials; ++k) rho += patch_->row(Prim::arho(k), 0, 0)[x.p];
+    return {patch_->row(Prim::c, 0, 0)[x.p], rho};
   }
 
   Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], const Sound<double>& sound_L,
@@ -381,7 +388,7 @@ class CutKernel {
     Face f;
     f.v = speed + v_grid;
     std::fill(f.F, f.F + n_flux, 0.0);
-    for (int q = 0; q < Gas::densities; ++q) f.F[q] = up[size_t(q)] * f.v;
+    for (int k = 0; k < Gas::densities; ++k) f.F[Cons::arho(k)] = up[size_t(FaceRow::arho(k))] * f.v;
     const Vec3 v_up = Gas::velocity(up);
     constexpr int mom = Flow::mixed ? int(Cons::mom) : int(GasCons::mom);
     for (int e = 0; e < 3; ++e) f.F[mom + e] = momentum[e] + flow * v_wall[e] + v_grid * rho * v_up[e];
@@ -390,6 +397,8 @@ class CutKernel {
              v_grid * (inner + 0.5 * rho * dot(v_up, v_up));
     if constexpr (Flow::mixed) {
       f.F[Cons::alpha1] = up[Prim::alpha1] * f.v;
+      if constexpr (Flow::materials > 2)
+        for (int k = 1; k < Flow::materials; ++k) f.F[Cons::alpha(k)] = up[size_t(FaceRow::alpha(k))] * f.v;
       if (patch_->burns) f.F[E] += f.F[Cons::arho1] * patch_->row(Prim::stored_energy, 0, 0)[(from ? high : low).p];
     }
     for (double& F : f.F) F *= lambda_[d];
@@ -440,7 +449,7 @@ class CutKernel {
     const double stored = Flow::mixed && patch_->burns ? patch_->row(Prim::stored_energy, 0, 0)[x.p] : 0;
     const Face f = side ? solve(inner, beyond, in, wall, d, stored) : solve(beyond, inner, wall, in, d, stored);
     const double volume = share_of_face * out * shape_.cell_volume();
-    for (int q = 0; q < Gas::densities; ++q) exchange_->mass += volume * f.F[q];
+    for (int k = 0; k < Gas::densities; ++k) exchange_->mass += volume * f.F[Cons::arho(k)];
     Vec3 impulse;
     for (int e = 0; e < 3; ++e) impulse[e] = volume * f.F[Flow::mixed ? Cons::mom + e : GasCons::mom + e];
     exchange_->momentum += impulse;
@@ -480,8 +489,8 @@ class CutKernel {
     for (int d = 0; d < 3; ++d)
       for (int upper = 0; upper < 2; ++upper) {
         if (!shape_.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
-        double(&sum)[Cons::count] = change.side[2 * d + upper];
-        std::fill(sum, sum + Cons::count, 0.0);
+        double(&sum)[Cons::most] = change.side[2 * d + upper];
+        std::fill(sum, sum + change.rows, 0.0);
         Index3 first{0, 0, 0}, last = shape_.n;
         (upper ? first : last)[size_t(d)] = upper ? shape_.n[size_t(d)] - 1 : 1;
         for (int k = first[2]; k < last[2]; ++k)

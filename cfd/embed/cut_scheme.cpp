@@ -33,9 +33,12 @@ class Scheme final : public CutScheme {
 
 std::unique_ptr<CutScheme> make_cut_scheme(const Mixture& mixture, const BlockShape& shape, WallTreatment treatment) {
   return std::visit(
-      [&](const auto& mix) -> std::unique_ptr<CutScheme> {
-        using Eos = MixtureAtWall<std::decay_t<decltype(mix)>>;
-        return std::make_unique<Scheme<Eos>>(Eos{mix}, MixedFlow{mix.closure()}, shape, treatment);
+      [&]<class Mix>(const Mix& mix) -> std::unique_ptr<CutScheme> {
+        using Eos = MixtureAtWall<Mix>;
+        if constexpr (Mix::materials > 2)
+          return std::make_unique<Scheme<Eos>>(Eos{mix}, ManyFlow<Mix::materials>(mix), shape, treatment);
+        else
+          return std::make_unique<Scheme<Eos>>(Eos{mix}, MixedFlow{mix.closure()}, shape, treatment);
       },
       mixture);
 }

@@ -44,7 +44,8 @@ class Refill {
         }
         // behind a wall that runs away from its gas: near vacuum, but not less in every next cell
         if (Gas::rho(value[count]) < refill_share * Gas::rho(A))
-          for (int q = 0; q < Gas::densities; ++q) value[count][size_t(q)] = refill_share * A[size_t(q)];
+          for (int k = 0; k < Gas::densities; ++k)
+            value[count][size_t(FaceRow::arho(k))] = refill_share * A[size_t(FaceRow::arho(k))];
         value[count][Gas::p] = std::max(value[count][Gas::p], refill_share * A[Gas::p]);
         if (weight[count] > most) most = weight[count], primary = count;
         ++count;
@@ -60,6 +61,9 @@ class Refill {
     }
     for (size_t q = 0; q < sum.size(); ++q) out[q] = sum[q] / total;
     out[Prim::alpha1] = value[primary][Prim::alpha1];
+    if constexpr (Mix::materials > 2)
+      for (int k = 1; k < Mix::materials; ++k)
+        out[size_t(FaceRow::alpha(k))] = value[primary][size_t(FaceRow::alpha(k))];
     return true;
   }
 
@@ -80,11 +84,11 @@ class Refill {
     return map_.inside(to) && !link(c, d, side) && !(map_.flags(to) & (cell_blocked | cell_fresh));
   }
   State state(const Index3& c) const {
-    double U[Cons::count], W[Prim::stored];
+    double U[Mix::n_cons], W[Mix::n_prim];
     read_(c, U);
     mix_.to_primitive(U, W, floors_);
     State w;
-    for (size_t q = 0; q < w.size(); ++q) w[q] = W[q];
+    for (size_t q = 0; q < w.size(); ++q) w[q] = W[FaceRow::prim(int(q))];
     return w;
   }
 
@@ -98,13 +102,13 @@ class Refill {
 }  // namespace
 
 bool refill(const CutMap& map, const Index3& cell, const Mixture& mixture, const Floors& floors, const CellReader& read,
-            double (&U)[Cons::count]) {
+            double* U) {
   return std::visit(
       [&]<class Mix>(const Mix& mix) {
-        std::array<double, size_t(Prim::count)> w;
+        std::array<double, size_t(FaceRow::rows(Mix::materials))> w;
         if (!Refill<Mix>(map, mix, floors, read)(cell, w)) return false;
-        double W[Prim::stored] = {};
-        for (size_t q = 0; q < w.size(); ++q) W[q] = w[q];
+        double W[Mix::n_prim] = {};
+        for (size_t q = 0; q < w.size(); ++q) W[FaceRow::prim(int(q))] = w[q];
         mix.to_conserved(W, U);
         return true;
       },

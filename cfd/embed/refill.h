@@ -12,7 +12,7 @@ namespace bw::cfd {
 inline constexpr double refill_share = 1e-3;
 
 /// Conserved state of a cell of the lattice; called for cells up to three away from the fresh one.
-using CellReader = std::function<void(const Index3& cell, double (&U)[Cons::count])>;
+using CellReader = std::function<void(const Index3& cell, double* U)>;
 
 /// U of a fresh cell: mean over the directions with a valid neighbour A (open, not fresh, link not cut),
 /// - wall on the other side: on the line from the wall's state (half-Riemann of the gas at A, prolonged through B
@@ -23,6 +23,6 @@ using CellReader = std::function<void(const Index3& cell, double (&U)[Cons::coun
 /// Composition comes from the neighbour of the largest weight and neighbours like it: nothing is mixed.
 /// false: it has no valid neighbour.
 bool refill(const CutMap& map, const Index3& cell, const Mixture& mixture, const Floors& floors, const CellReader& read,
-            double (&U)[Cons::count]);
+            double* U);
 
 }  // namespace bw::cfd

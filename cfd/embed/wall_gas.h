@@ -68,18 +68,64 @@ struct MixtureAtWall {
   }
 };
 
+/// Of more than two materials.
+template <int K>
+struct MixtureAtWall<ManyMaterials<K>> {
+  using Flow = ManyFlow<K>;
+  const ManyMaterials<K>& mix;
+  template <class W>
+  double G(const W& w) const {
+    return G_without_covolume(w) - over([&](size_t k) { return w[FaceRow::arho(int(k))] * mix.b_G[k]; });
+  }
+  template <class W>
+  double G_without_covolume(const W& w) const {
+    return over([&](size_t k) { return w[FaceRow::alpha(int(k))] * mix.over_G[k]; });
+  }
+  template <class W>
+  double taken(const W& w) const {
+    return over([&](size_t k) { return w[FaceRow::arho(int(k))] * mix.b_G[k] / mix.over_G[k]; });
+  }
+  template <class W>
+  PiTerms<double> part(const W& w, int k) const {
+    return mix.part(k, w[FaceRow::arho(k)], w[FaceRow::alpha(k)]);
+  }
+  template <class W>
+  PiTerms<double> sum(const W& w) const {
+    PiTerms<double> all{0, 0, 0};
+    for (int k = 0; k < K; ++k) {
+      const PiTerms<double> own = part(w, k);
+      all.pi += own.pi, all.dpi += own.dpi, all.stiffness += own.stiffness;
+    }
+    return all;
+  }
+  template <class W>
+  bool ideal(const W& w) const {
+    bool all = true;
+    for (int k = 0; k < K; ++k)
+      all = all && (w[FaceRow::alpha(k)] == 0 || std::holds_alternative<ConstantReference>(mix.form[size_t(k)]));
+    return all;
+  }
+
+ private:
+  template <class Term>
+  static double over(const Term& term) {
+    double sum = 0;
+    for (size_t k = 0; k < K; ++k) sum += term(k);
+    return sum;
+  }
+};
+
 template <class Eos>
 struct WallGas {
   using Flow = typename Eos::Flow;
-  static constexpr int n = Flow::n, v = Flow::v, p = Flow::p, densities = Flow::mixed ? 2 : 1;
+  static constexpr int n = Flow::n, v = Flow::v, p = Flow::p, densities = Flow::materials;
   using State = std::array<double, size_t(n)>;
   Eos eos;
 
   static double rho(const State& w) {
-    if constexpr (Flow::mixed)
-      return w[0] + w[1];
-    else
-      return w[0];
+    double sum = w[0];
+    for (int k = 1; k < densities; ++k) sum += w[size_t(FaceRow::arho(k))];
+    return sum;
   }
   static Vec3 velocity(const State& w) { return {w[v], w[v + 1], w[v + 2]}; }
   double stiffness(const State& w, double pressure) const {
@@ -107,14 +153,14 @@ struct WallGas {
     WallStar star =
         wall_star(rho(w) / free, w[p], K * free, eos.G(w) / free, dv, eos.ideal(w), [&](double ratio, double pressure) {
           State at = w;
-          for (int q = 0; q < densities; ++q) at[size_t(q)] *= denser(ratio);
+          for (int k = 0; k < densities; ++k) at[size_t(FaceRow::arho(k))] *= denser(ratio);
           return stiffness(at, pressure) * (1 - taken * denser(ratio));
         });
     star.compress = denser(star.compress);
     if (!std::isfinite(star.p) || !std::isfinite(star.compress))
       return {w, K};  // no gas to speak of: it keeps what it has
     State at = w;
-    for (int q = 0; q < densities; ++q) at[size_t(q)] *= star.compress;
+    for (int k = 0; k < densities; ++k) at[size_t(FaceRow::arho(k))] *= star.compress;
     at[p] = star.p;
     for (int d = 0; d < 3; ++d) at[size_t(v + d)] += dv * normal[d];
     if constexpr (Flow::mixed) at[Prim::Pi] = eos.sum(at).pi;
@@ -135,7 +181,7 @@ struct WallGas {
   /// Densities of `out`, whose pressure is set: of the isentrope through w, times `factor`.
   void put_on_isentrope(const State& w, double factor, State& out) const {
     const double ratio = factor * on_isentrope(w, out[p]) / rho(w);
-    for (int q = 0; q < densities; ++q) out[size_t(q)] = ratio * w[size_t(q)];
+    for (int k = 0; k < densities; ++k) out[size_t(FaceRow::arho(k))] = ratio * w[size_t(FaceRow::arho(k))];
     if constexpr (Flow::mixed) out[Prim::Pi] = eos.sum(out).pi;
   }
 
@@ -154,7 +200,10 @@ struct WallGas {
     if (uniform) limit(rho(w), rho(other));
     const double s = keep * share;
     if (uniform)
-      for (int q = 0; q < densities; ++q) out[size_t(q)] += s * (w[size_t(q)] - other[size_t(q)]);
+      for (int k = 0; k < densities; ++k) {
+        const size_t q = size_t(FaceRow::arho(k));
+        out[q] += s * (w[q] - other[q]);
+      }
     for (int q = v; q <= p; ++q) out[size_t(q)] += s * (w[size_t(q)] - other[size_t(q)]);
     return out;
   }
@@ -171,10 +220,13 @@ struct WallGas {
   }
 
   static bool same_composition(const State& a, const State& b) {
+    bool same = true;
     if constexpr (Flow::mixed)
-      return std::abs(a[Prim::alpha1] - b[Prim::alpha1]) < 1e-10;
-    else
-      return true;
+      for (int k = 0; k < densities - (densities == 2); ++k) {
+        const size_t q = size_t(FaceRow::alpha(k));
+        same = same && std::abs(a[q] - b[q]) < 1e-10;
+      }
+    return same;
   }
 };
 

@@ -16,8 +16,9 @@ namespace bw::cfd {
 
 /// Change of a block over one step, and what was noticed on the way. One per thread.
 struct BlockChange {
-  explicit BlockChange(const BlockShape& s) : shape(s), pitch((s.n[0] + 7) / 8 * 8 + 8) {
-    data.assign(size_t(Cons::count) * s.n[2] * s.n[1] * pitch, 0.0);
+  explicit BlockChange(const BlockShape& s, int materials = 2)
+      : shape(s), rows(Cons::rows(materials)), pitch((s.n[0] + 7) / 8 * 8 + 8) {
+    data.assign(size_t(rows) * s.n[2] * s.n[1] * pitch, 0.0);
   }
   BlockChange() = default;
   /// U_new - U_old of row (k, j), from i = 0; rows have room for hanging packs.
@@ -27,16 +28,17 @@ struct BlockChange {
   const double* row(int variable, int k, int j) const { return const_cast<BlockChange*>(this)->row(variable, k, j); }
 
   BlockShape shape;
+  int rows = 0;  ///< variables
   int pitch = 0;
   Aligned<double> data;
   int64_t scaled_cells = 0;          ///< cells whose face states were scaled (positivity.h)
   unsigned book_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted
-  double side[6][Cons::count] = {};  ///< out: sum over the side's faces of flux * dt/h_d, for book_sides
+  double side[6][Cons::most] = {};   ///< out: sum over the side's faces of flux * dt/h_d, for book_sides
   unsigned keep_sides = 0;           ///< in: bit 2d + upper of the sides whose fluxes are wanted face by face
   /// Out, for keep_sides: flux * dt/h_d, then face velocity * dt/h_d. [variable][faces], j + n_j k, i + n_i k or i +
   /// n_i j, with room for hanging packs. Rows that the flow does not own are left alone.
   Aligned<double> side_flux[6];
-  static constexpr int side_rows = Cons::count + 1;
+  int side_rows() const { return rows + 1; }
 
   size_t side_pitch(int d) const { return size_t(shape.cells() / shape.n[size_t(d)]) + 8; }
   double* side_row(int side, int variable) { return side_flux[side].data() + side_pitch(side / 2) * size_t(variable); }
@@ -46,7 +48,7 @@ struct BlockChange {
   /// Room for the fluxes of the sides in keep_sides, zero.
   void make_sides() {
     for (int side = 0; side < 6; ++side)
-      if (keep_sides >> side & 1) side_flux[side].assign(side_pitch(side / 2) * side_rows, 0.0);
+      if (keep_sides >> side & 1) side_flux[side].assign(side_pitch(side / 2) * size_t(side_rows()), 0.0);
   }
 };
 
@@ -67,7 +69,7 @@ class BlockKernel {
     patch_ = &patch, flow_ = &flow, change_ = &change;
     for (int d = 0; d < 3; ++d) lambda_[d] = shape_.used[d] ? dt / patch.shape().h[d] : 0;
     change.scaled_cells = 0;
-    for (auto& side : change.side) std::fill(side, side + Cons::count, 0.0);
+    for (auto& side : change.side) std::fill(side, side + change.rows, 0.0);
     const int ky = shape_.used[1] ? 1 : 0, kz = shape_.used[2] ? 1 : 0;
     for (int k = -kz; k < shape_.n[2] + kz; ++k)
       for (int j = -ky; j < shape_.n[1] + ky; ++j) {
@@ -85,6 +87,12 @@ class BlockKernel {
  private:
   double* face(Aligned<double>& rows, int q) const { return rows.data() + size_t(q) * pitch_ + room; }
 
+  static T limited(const double* a, ptrdiff_t step) {
+    const T mean = Lane<T>::load(a);
+    return MonotonizedCentral::slope(mean - Lane<T>::load(a - step), Lane<T>::load(a + step) - mean);
+  }
+  /// Is row q of the flux one of d alpha/dt + v.grad alpha = 0?
+  static constexpr bool is_alpha(int q) { return Flow::mixed && Cons::is_alpha(q); }
   /// W(t + dt/2) at the six faces of the cells of row (k, j): minus_[d], plus_[d].
   void predict_row(int k, int j, bool in_k, bool in_j) {
     const bool inside = in_k && in_j,
@@ -107,10 +115,11 @@ class BlockKernel {
       for (int q = 0; q < n; ++q) {
         const double* a = W_row[q] + i;
         mean[q] = half[q] = Lane<T>::load(a);
-        for (int d = 0; d < 3; ++d)
-          slope[d][q] =
-              MonotonizedCentral::slope(mean[q] - Lane<T>::load(a - step[d]), Lane<T>::load(a + step[d]) - mean[q]);
+        for (int d = 0; d < 3; ++d) slope[d][q] = limited(a, step[d]);
       }
+      if constexpr (Flow::materials > 2)
+        for (int d = 0; d < 3; ++d)
+          flow_->balance(slope[d], [&](int m) { return limited(patch_->row(Prim::part(m), k, j) + i, step[d]); });
       Flow::predict(half, slope, half_lambda, Lane<T>::load(rho_c2 + i), Lane<T>::load(dPi + i));
       if (order) {
         const T keep = Lane<T>::load(order + i);
@@ -121,7 +130,7 @@ class BlockKernel {
       }
       const auto scaled = keep_faces_positive(*flow_, mean, half, slope);
       if (inside && any(scaled)) count_scaled(scaled, i);
-      if constexpr (Flow::mixed)
+      if constexpr (Flow::materials == 2)
         if (flow_->interface.sharpness > 0 && any(min(mean[Prim::alpha1], T(1) - mean[Prim::alpha1]) > T(Interface::least))) {
           sharp_faces(W_row[Prim::alpha1] + i, step, mean, half, slope, half_lambda, Lane<T>::load(dPi + i),
                       order ? Lane<T>::load(order + i) : T(1), wanted, i);
@@ -178,7 +187,9 @@ class BlockKernel {
     Flow flow;
     Sound<T> sound(const double* c, const double* arho1, int i) const {
       if constexpr (!Flow::mixed) return {Lane<T>::load(c + i), T(0)};
-      return {Lane<T>::load(c + i), Lane<T>::load(arho1 + i) + Lane<T>::load(arho1 + variable + i)};
+      T rho = Lane<T>::load(arho1 + i) + Lane<T>::load(arho1 + variable + i);
+      for (int m = 2; m < Flow::materials; ++m) rho += Lane<T>::load(arho1 + Prim::arho(m) * variable + i);
+      return {Lane<T>::load(c + i), rho};
     }
   };
   Faces faces_of(int axis, Aligned<double>& low, int shift, ptrdiff_t step, int k, int j) {
@@ -240,8 +251,8 @@ class BlockKernel {
       for (int q = 0; q < n_flux; ++q) Lane<T>::store(flux + q * f.pitch + i, F[q]);
       if constexpr (Flow::mixed) Lane<T>::store(flux + n_flux * f.pitch + i, v_face);
     }
-    const double* alpha1 = patch_->row(Prim::alpha1, k, j);
     for (int q = 0; q < n_flux; ++q) {
+      const double* alpha = patch_->row(is_alpha(q) ? Prim::alpha_of(q) : int(Prim::alpha1), k, j);
       const double *F = flux + q * f.pitch, *v_face = flux + n_flux * f.pitch;
       for (int upper = 0; upper < 2; ++upper)
         if (change_->book_sides >> upper & 1) change_->side[upper][flow_->cons_row(q)] += F[upper * n0];
@@ -249,12 +260,12 @@ class BlockKernel {
         if (change_->keep_sides >> upper & 1) {
           const int face = k * shape_.n[1] + j;
           change_->side_row(upper, flow_->cons_row(q))[face] = F[upper * n0];
-          if (Flow::mixed && q == Cons::alpha1) change_->side_row(upper, Cons::count)[face] = v_face[upper * n0];
+          if (q == Cons::alpha1 && Flow::mixed) change_->side_row(upper, change_->rows)[face] = v_face[upper * n0];
         }
       for (int i = 0; i < n0; i += w) {
         T d = Lane<T>::load(F + i) - Lane<T>::load(F + i + 1);
-        if (Flow::mixed && q == Cons::alpha1)
-          d -= Lane<T>::load(alpha1 + i) * (Lane<T>::load(v_face + i) - Lane<T>::load(v_face + i + 1));
+        if (is_alpha(q))
+          d -= Lane<T>::load(alpha + i) * (Lane<T>::load(v_face + i) - Lane<T>::load(v_face + i + 1));
         Lane<T>::store(out[q] + i, d);
       }
     }
@@ -285,11 +296,14 @@ class BlockKernel {
       if (at > 0) add(below, i, F, v_face, alpha1 - step, T(-1));
     }
   }
-  static void add(double* const (&out)[n_flux], int i, const T (&F)[n_flux], T v_face, const double* alpha1, T sign) {
+  void add(double* const (&out)[n_flux], int i, const T (&F)[n_flux], T v_face, const double* alpha1, T sign) const {
+    const ptrdiff_t variable = Flow::materials > 2 ? patch_->stride_variable() : 0;
     for (int q = 0; q < n_flux; ++q) {
       T d = F[q];
-      if constexpr (Flow::mixed)
-        if (q == Cons::alpha1) d -= Lane<T>::load(alpha1 + i) * v_face;
+      if (is_alpha(q)) {
+        const ptrdiff_t further = q == Cons::alpha1 ? 0 : (Prim::alpha_of(q) - Prim::alpha1) * variable;
+        d -= Lane<T>::load(alpha1 + further + i) * v_face;
+      }
       Lane<T>::store(out[q] + i, Lane<T>::load(out[q] + i) + sign * d);
     }
   }
@@ -304,7 +318,7 @@ class BlockKernel {
     double lane[w];
     for (int q = 0; q < n_flux + (Flow::mixed ? 1 : 0); ++q) {
       Lane<T>::store(lane, q < n_flux ? F[q] : v_face);
-      std::copy_n(lane, count, change_->side_row(side, q < n_flux ? flow_->cons_row(q) : int(Cons::count)) + face);
+      std::copy_n(lane, count, change_->side_row(side, q < n_flux ? flow_->cons_row(q) : change_->rows) + face);
     }
   }
 

@@ -26,6 +26,25 @@ void half_step(T (&W)[Prim::count], const T (&slope)[3][Prim::count], const T (&
     W[q] = W[q] - (vx * slope[0][q] + vy * slope[1][q] + vz * slope[2][q] + compress[q]);
 }
 
+/// The same of more than two materials, W[FaceRow::rows(K)].
+template <int K, class T, int n>
+void half_step_many(T (&W)[n], const T (&slope)[3][n], const T (&k)[3], T rho_c2, T dPi) {
+  const T vx = k[0] * W[Prim::v], vy = k[1] * W[Prim::v_y], vz = k[2] * W[Prim::v_z];
+  const T div = k[0] * slope[0][Prim::v] + k[1] * slope[1][Prim::v_y] + k[2] * slope[2][Prim::v_z];
+  T rho(0), compress[n];
+  for (T& c : compress) c = T(0);
+  for (int m = 0; m < K; ++m) {
+    rho += W[FaceRow::arho(m)];
+    compress[FaceRow::arho(m)] = W[FaceRow::arho(m)] * div;
+  }
+  const T over_rho = T(1) / rho;
+  for (int d = 0; d < 3; ++d) compress[Prim::v + d] = k[d] * slope[d][Prim::p] * over_rho;
+  compress[Prim::p] = rho_c2 * div;
+  compress[Prim::Pi] = dPi * div;
+  for (int q = 0; q < n; ++q)
+    W[q] = W[q] - (vx * slope[0][q] + vy * slope[1][q] + vz * slope[2][q] + compress[q]);
+}
+
 /// Rows of one gas: rho, v[3], p are reconstructed; c and rho_c2 belong to cell centres.
 struct GasPrim {
   enum : int { rho, v, v_y, v_z, p, count, c = count, rho_c2, stored };

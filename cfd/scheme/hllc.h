@@ -54,27 +54,38 @@ template <class T, class M>
           select(supersonic, T(0), work)};
 }
 
-/// Flux of two materials through a face normal to `axis`; returns the face velocity that the alpha equation needs:
+/// Density of a state at a face.
+template <class T, int n>
+[[gnu::always_inline]] inline T density_of(const T (&q)[n]) {
+  T rho = q[Prim::arho1] + q[Prim::arho2];
+  for (int m = 2; FaceRow::rows(m) < n; ++m) rho += q[FaceRow::arho(m)];
+  return rho;
+}
+
+/// Flux of two or more materials through a face normal to `axis`; returns the face velocity that the alpha equation needs:
 /// d alpha/dt = -(F[alpha1]_+ - F[alpha1]_-)/h + alpha (v_f+ - v_f-)/h.
-/// L, R: Prim states at the face; heaviest: see strength().
-template <int axis, class T>
-[[gnu::always_inline]] inline T hllc(const T (&L)[Prim::count], const T (&R)[Prim::count], const Sound<T>& sound_L,
-                                     const Sound<T>& sound_R, const Closure& closure, double heaviest,
-                                     T (&F)[Cons::count]) {
+/// L, R: states at the face (FaceRow); heaviest: see strength().
+template <int axis, class T, int n_W, int n_flux, class C>
+[[gnu::always_inline]] inline T hllc(const T (&L)[n_W], const T (&R)[n_W], const Sound<T>& sound_L,
+                                     const Sound<T>& sound_R, const C& closure, double heaviest, T (&F)[n_flux]) {
   constexpr int n = Prim::v + axis, t1 = Prim::v + (axis + 1) % 3, t2 = Prim::v + (axis + 2) % 3;
   decltype(L[0] >= R[0]) left;
   const Waves<T> w =
-      waves<T>({strength(L[Prim::arho1] + L[Prim::arho2], sound_L, heaviest), L[n], L[Prim::p], sound_L.c},
-               {strength(R[Prim::arho1] + R[Prim::arho2], sound_R, heaviest), R[n], R[Prim::p], sound_R.c}, left);
-  T q[Prim::count];
-  for (int i = 0; i < Prim::count; ++i) q[i] = select(left, L[i], R[i]);
-  const T rho = q[Prim::arho1] + q[Prim::arho2];
-  const T E = closure.G(q[Prim::alpha1], q[Prim::arho1], q[Prim::arho2]) * q[Prim::p] + q[Prim::Pi] +
+      waves<T>({strength(density_of(L), sound_L, heaviest), L[n], L[Prim::p], sound_L.c},
+               {strength(density_of(R), sound_R, heaviest), R[n], R[Prim::p], sound_R.c}, left);
+  T q[n_W];
+  for (int i = 0; i < n_W; ++i) q[i] = select(left, L[i], R[i]);
+  const T rho = density_of(q);
+  const T E = closure.of(q) * q[Prim::p] + q[Prim::Pi] +
               T(0.5) * rho * (q[n] * q[n] + q[t1] * q[t1] + q[t2] * q[t2]);
   const T flow = w.compress * w.v;
   F[Cons::arho1] = q[Prim::arho1] * flow;
   F[Cons::arho2] = q[Prim::arho2] * flow;
-  const T mass = F[Cons::arho1] + F[Cons::arho2];
+  T mass = F[Cons::arho1] + F[Cons::arho2];
+  for (int f = Cons::count; f < n_flux; ++f) {
+    F[f] = q[f + 1] * (Cons::is_alpha(f) ? w.v : flow);  // FaceRow holds them in the same order
+    if (!Cons::is_alpha(f)) mass += F[f];
+  }
   F[Cons::mom + axis] = mass * w.v + w.p;
   F[Cons::mom + (axis + 1) % 3] = mass * q[t1];
   F[Cons::mom + (axis + 2) % 3] = mass * q[t2];

@@ -31,7 +31,11 @@ template <class Flow, class T>
   constexpr int p = Flow::p;
   T low_p = half[p] - reach(slope, p), low_1 = half[0] - reach(slope, 0), low_2 = T(0), low_a = T(0), high_a = T(0);
   auto bad = (low_p < face_share * mean[p]) | (low_1 < face_share * mean[0]);
-  if constexpr (Flow::mixed) {
+  if constexpr (Flow::materials > 2) {
+    for (int k = 0; k < Flow::materials; ++k)
+      for (const int q : {FaceRow::arho(k), FaceRow::alpha(k)})
+        bad = bad | (half[q] - reach(slope, q) < face_share * mean[q]);
+  } else if constexpr (Flow::mixed) {
     constexpr int a = Prim::alpha1;
     const T r = reach(slope, a);
     low_2 = half[1] - reach(slope, 1);
@@ -42,7 +46,11 @@ template <class Flow, class T>
   }
   if (!any(bad)) return bad;
   T theta = min(theta_above(mean[p], low_p), theta_above(mean[0], low_1));
-  if constexpr (Flow::mixed) {
+  if constexpr (Flow::materials > 2) {
+    for (int k = 0; k < Flow::materials; ++k)
+      for (const int q : {FaceRow::arho(k), FaceRow::alpha(k)})
+        theta = min(theta, theta_above(mean[q], half[q] - reach(slope, q)));
+  } else if constexpr (Flow::mixed) {
     constexpr int a = Prim::alpha1;
     theta = min(theta, min(theta_above(mean[1], low_2),
                            min(theta_above(mean[a], low_a), theta_above(T(1) - mean[a], T(1) - high_a))));

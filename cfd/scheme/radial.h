@@ -79,7 +79,7 @@ class RadialKernel {
     const BlockShape& s = patch.shape();
     shells_.fill(s.geometry, patch.lower.x, s.h.x, mirror);
     change.scaled_cells = 0;
-    for (auto& side : change.side) std::fill(side, side + Cons::count, 0.0);
+    for (auto& side : change.side) std::fill(side, side + change.rows, 0.0);
     predict(patch, flow, dt / s.h.x, change);
     for (int q = 0; q < n; ++q) {
       const double sign = q == Flow::v ? -1 : 1;
@@ -112,6 +112,12 @@ class RadialKernel {
                                                 to_high * (Lane<T>::load(W[q] + i + 1) - mean[q]));
         slope[1][q] = slope[2][q] = T(0);
       }
+      if constexpr (Flow::materials > 2)
+        flow.balance(slope[0], [&](int m) {
+          const double* a = patch.row(Prim::part(m), 0, 0) + i;
+          const T middle = Lane<T>::load(a);
+          return MonotonizedCentral::slope(to_low * (middle - Lane<T>::load(a - 1)), to_high * (Lane<T>::load(a + 1) - middle));
+        });
       const T rho_c2 = Lane<T>::load(rho_c2_row + i), dPi = Lane<T>::load(dPi_row + i);
       Flow::predict(half, slope, k, rho_c2, dPi);
       const T dv = reach * slope[0][Flow::v], v_low = mean[Flow::v] - shell(ShellRow::back, i) * dv,
@@ -136,7 +142,7 @@ class RadialKernel {
         low[q] = half[q] - back * slope[0][q];
         high[q] = half[q] + ahead * slope[0][q];
       }
-      if constexpr (Flow::mixed)
+      if constexpr (Flow::materials == 2)
         if (flow.interface.sharpness > 0) {
           const double* a = W[Prim::alpha1] + i;
           const SharpCell<T> cell(flow.interface, mean, k[0] * slope[0][Flow::v] / reach + spread, dPi);
@@ -158,6 +164,7 @@ class RadialKernel {
     if constexpr (Flow::mixed) {
       half[Prim::arho2] -= mean[Prim::arho2] * spread;
       half[Prim::Pi] -= dPi * spread;
+      for (int m = 2; m < Flow::materials; ++m) half[FaceRow::arho(m)] -= mean[FaceRow::arho(m)] * spread;
     }
   }
 
@@ -169,7 +176,9 @@ class RadialKernel {
     const double* z = Flow::mixed && patch.burns ? patch.row(Prim::stored_energy, 0, 0) : nullptr;
     const auto sound = [&](int i) -> Sound<T> {
       if constexpr (!Flow::mixed) return {Lane<T>::load(c + i), T(0)};
-      return {Lane<T>::load(c + i), Lane<T>::load(arho1 + i) + Lane<T>::load(arho2 + i)};
+      T rho = Lane<T>::load(arho1 + i) + Lane<T>::load(arho2 + i);
+      for (int m = 2; m < Flow::materials; ++m) rho += Lane<T>::load(patch.row(Prim::arho(m), 0, 0) + i);
+      return {Lane<T>::load(c + i), rho};
     };
     for (int i = 0; i <= cells_; i += w) {
       T L[n], R[n], F[n_flux];
@@ -186,9 +195,10 @@ class RadialKernel {
   }
 
   void add_up(const Patch& patch, const Flow& flow, double lambda, BlockChange& change) {
-    const double* alpha1 = patch.row(Prim::alpha1, 0, 0);
     for (int q = 0; q < n_flux; ++q) {
       const int variable = flow.cons_row(q);
+      const bool is_alpha = Flow::mixed && Cons::is_alpha(q);
+      const double* alpha = patch.row(is_alpha ? Prim::alpha_of(q) : int(Prim::alpha1), 0, 0);
       const double *F = face(flux_, q), *v_face = face(flux_, n_flux);
       for (int upper = 0; upper < 2; ++upper)
         if (change.book_sides >> upper & 1) change.side[upper][variable] += lambda * F[upper * cells_];
@@ -203,8 +213,8 @@ class RadialKernel {
           in -= push, away -= push;
         }
         T d = low * in - high * away;
-        if (Flow::mixed && q == Cons::alpha1)
-          d -= Lane<T>::load(alpha1 + i) * (low * Lane<T>::load(v_face + i) - high * Lane<T>::load(v_face + i + 1));
+        if (is_alpha)
+          d -= Lane<T>::load(alpha + i) * (low * Lane<T>::load(v_face + i) - high * Lane<T>::load(v_face + i + 1));
         Lane<T>::store(out + i, T(lambda) * d);
       }
     }

@@ -112,19 +112,19 @@ void check_fit(const Start& s, const Model& m) {
 }
 
 /// Shells of the profile from `first` on and what each gives to one cell.
-void paint_cell(const Start& s, const View& view, const Vec3& lower, const Vec3& upper, double cell_volume,
-                double (&U)[Cons::count]) {
+void paint_cell(const Start& s, int variables, const View& view, const Vec3& lower, const Vec3& upper,
+                double cell_volume, double (&U)[Cons::most]) {
   const Profile& p = s.profile;
   const auto [least, most] = view.distances(lower, upper);
   if (least >= s.reach) return;
   const size_t shells = size_t(std::upper_bound(p.r.begin(), p.r.end(), s.reach * (1 - 1e-14)) - p.r.begin());
   size_t i = size_t(std::upper_bound(p.r.begin(), p.r.end(), least) - p.r.begin());
   i = i > 0 ? i - 1 : 0;
-  double sum[Cons::count] = {}, inner = i == 0 ? 0 : view.within(lower, upper, p.r[i]);
+  double sum[Cons::most] = {}, inner = i == 0 ? 0 : view.within(lower, upper, p.r[i]);
   const double begin = inner;
   for (; i < shells && i < p.U.size() && (p.r[i] < most || inner == begin); ++i) {
     const double outer = view.within(lower, upper, p.r[i + 1]);
-    for (int q = 0; q < Cons::count; ++q) sum[s.row[q]] += (outer - inner) * p.U[i][size_t(q)];
+    for (int q = 0; q < variables; ++q) sum[s.row[q]] += (outer - inner) * p.U[i][size_t(q)];
     inner = outer;
   }
   const double covered = inner - begin;
@@ -134,10 +134,25 @@ void paint_cell(const Start& s, const View& view, const Vec3& lower, const Vec3&
   const Vec3 along = view.direction(lower, upper);
   for (int d = 0; d < 3; ++d) sum[Cons::mom + d] = radial * along[d];
   const bool whole = most <= s.reach;  // round-off of the volumes must not leave traces of the regions
-  for (int q = 0; q < Cons::count; ++q)
+  for (int q = 0; q < variables; ++q)
     U[q] = whole ? sum[q] / covered : (U[q] * (cell_volume - covered) + sum[q]) / cell_volume;
-  if (std::abs(U[Cons::alpha1] - 1) < 1e-13) U[Cons::alpha1] = 1;
-  if (std::abs(U[Cons::alpha1]) < 1e-13) U[Cons::alpha1] = 0;
+  for (int q = Cons::alpha1; q < variables; ++q) {
+    if (!Cons::is_alpha(q)) continue;
+    if (std::abs(U[q] - 1) < 1e-13) U[q] = 1;
+    if (std::abs(U[q]) < 1e-13) U[q] = 0;
+  }
+}
+
+/// Rows of the profile's materials as rows of this run's, which has more than two; to[a]: where material a is here.
+std::array<double, Cons::most> laid_out(const std::array<double, Cons::most>& from, const std::vector<int>& to) {
+  std::array<double, Cons::most> U{};
+  for (int q = Cons::mom; q <= Cons::rhoE; ++q) U[size_t(q)] = from[size_t(q)];
+  for (size_t a = 0; a < to.size(); ++a) {
+    const double first = from[Cons::alpha1];
+    U[size_t(Cons::arho(to[a]))] = from[size_t(Cons::arho(int(a)))];
+    U[size_t(Cons::alpha(to[a]))] = to.size() <= 2 && a == 1 ? 1 - first : from[size_t(Cons::alpha(int(a)))];
+  }
+  return U;
 }
 
 }  // namespace
@@ -149,7 +164,8 @@ Start begin_from(const StartCase& in, const Model& m) {
   s.centre = in.centre;
   s.axis = in.axis[0] - 'x';
   s.reach = s.profile.reach();
-  for (int q = 0; q < Cons::count; ++q) s.row[q] = q;
+  for (int q = 0; q < Cons::most; ++q) s.row[q] = q;
+  std::vector<int> to;
   const Medium& medium = m.setup.medium;
   const std::vector<double> mine = probe_materials(medium);
   const size_t each = mine.size() / size_t(medium.count());
@@ -159,12 +175,17 @@ Start begin_from(const StartCase& in, const Model& m) {
       throw InputError(fmt::format("{}: {} holds {}, this case {}", in.place, in.file,
                                    fmt::join(s.profile.materials, " and "), fmt::join(medium.names, " and ")));
     const size_t b = size_t(found - medium.names.begin());
-    s.row[a] = int(b);
+    to.push_back(int(b));
+    if (medium.count() <= 2) s.row[a] = int(b);
     if (s.profile.materials.size() == 2 || a == 0) s.swapped = a == 0 ? b == 1 : s.swapped;
     for (size_t i = 0; i < each; ++i)
       if (std::abs(mine[b * each + i] - s.profile.probes.at(a * each + i)) > 1e-9 * std::abs(mine[b * each + i]))
         throw InputError(fmt::format("{}: \"{}\" has another equation of state in {} than in this case", in.place,
                                      s.profile.materials[a], in.file));
+  }
+  if (medium.count() > 2) {
+    s.swapped = false;
+    for (auto& U : s.profile.U) U = laid_out(U, to);
   }
   if (s.row[0] == s.row[1]) s.row[1] = 1 - s.row[0];  // one material: the other's row is zero
   check_fit(s, m);
@@ -182,11 +203,11 @@ void paint_profile(Model& m, const Start& start, bool report) {
       for (int j = 0; j < s.n[1]; ++j)
         for (int i = 0; i < s.n[0]; ++i) {
           const Vec3 lower = corner + Vec3{i * s.h.x, j * s.h.y, k * s.h.z};
-          double U[Cons::count];
+          double U[Cons::most];
           const size_t cell = s.at(k, j, i);
-          for (int q = 0; q < Cons::count; ++q) U[q] = m.state.block(b, q)[cell];
-          paint_cell(start, view, lower, lower + s.h, s.cell_volume(corner.x, i), U);
-          for (int q = 0; q < Cons::count; ++q) m.state.block(b, q)[cell] = U[q];
+          for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(b, q)[cell];
+          paint_cell(start, m.state.rows(), view, lower, lower + s.h, s.cell_volume(corner.x, i), U);
+          for (int q = 0; q < m.state.rows(); ++q) m.state.block(b, q)[cell] = U[q];
         }
   });
   if (report)

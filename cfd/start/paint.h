@@ -12,7 +12,7 @@ struct Start {
   Vec3 centre;
   int axis = 2;               ///< of a cylinder
   double reach = 0;           ///< the regions of the case hold beyond [m]
-  int row[Cons::count] = {};  ///< where a row of the profile goes; alpha1 apart
+  int row[Cons::most] = {};   ///< where a row of the profile goes; alpha1 apart
   bool swapped = false;       ///< its material 1 is material 2 here
   std::string place;
 };

@@ -13,7 +13,6 @@ namespace bw::cfd {
 namespace {
 
 constexpr const char* kind = "breakwave profile along a radius, 1";
-constexpr int columns = 2 + Cons::count;
 
 double shift_of(const EosChoice& eos) {
   const Jwl* jwl = std::get_if<Jwl>(&eos);
@@ -37,14 +36,21 @@ std::vector<double> probe_materials(const Medium& medium) {
 
 double Profile::reach() const {
   const auto& last = U.back();
-  double size[Cons::count] = {};
+  const int rows = Cons::rows(int(materials.size()));
+  double size[Cons::most] = {};
   for (const auto& u : U)
-    for (int q = 0; q < Cons::count; ++q) size[q] = std::max(size[q], std::abs(u[size_t(q)]));
-  const double ambient[Cons::count] = {last[0] + last[1], last[0] + last[1], 0, 0, 0, std::abs(last[Cons::rhoE]), 1};
+    for (int q = 0; q < rows; ++q) size[q] = std::max(size[q], std::abs(u[size_t(q)]));
+  double rho = last[0] + last[1];
+  for (size_t k = 2; k < materials.size(); ++k) rho += last[size_t(Cons::arho(int(k)))];
+  const double energy = std::abs(last[Cons::rhoE]);
   size_t i = U.size();
   const auto differs = [&](size_t shell) {
-    for (int q = 0; q < Cons::count; ++q) {
-      const double least = q == Cons::mom ? 1e-9 * std::sqrt(ambient[0] * ambient[Cons::rhoE]) : 1e-9 * ambient[q];
+    for (int q = 0; q < rows; ++q) {
+      const double least = 1e-9 * (q == Cons::mom                       ? std::sqrt(rho * energy)
+                                   : q == Cons::rhoE                    ? energy
+                                   : q > Cons::mom && q < Cons::rhoE    ? 0
+                                   : Cons::is_alpha(q)                  ? 1
+                                                                        : rho);
       if (std::abs(U[shell][size_t(q)] - last[size_t(q)]) > least) return true;
     }
     return false;
@@ -61,10 +67,10 @@ void write_profile(const std::string& path, const Model& m) {
     for (int i = 0; i < s.n[0]; ++i) {
       const int64_t number = forest.first_cell(b)[0] + i;
       for (const int64_t face : {number, number + 1}) rows.push_back(forest.size().lower.x + double(face) * s.h.x);
-      for (int q = 0; q < Cons::count; ++q) {
+      for (int q = 0; q < m.state.rows(); ++q) {
         double u = m.state.block(b, q)[i];
         if (q == Cons::rhoE)
-          for (int k = 0; k < 2; ++k) u += m.state.block(b, Cons::arho1 + k)[i] * shift_of(m.setup.medium.eos[k]);
+          for (int k = 0; k < std::max(m.setup.medium.count(), 2); ++k) u += m.state.block(b, Cons::arho(k))[i] * shift_of(m.setup.medium.eos[k]);
         rows.push_back(u);
       }
     }
@@ -80,7 +86,7 @@ void write_profile(const std::string& path, const Model& m) {
   root.attribute("time", m.state.t);
   root.attribute("burning", int32_t(burning));
   root.attribute("probes", std::span<const double>(probe_materials(m.setup.medium)));
-  root.write("shells", rows, columns);
+  root.write("shells", rows, 2 + m.state.rows());
 }
 
 Profile read_profile(const std::string& path, const std::string& place) {
@@ -106,15 +112,17 @@ Profile read_profile(const std::string& path, const std::string& place) {
       p.materials.push_back(names.substr(at, end - at));
       at = end + 1;
     }
-    if (root.shape("shells")[1] != columns) throw std::runtime_error("its rows have another length");
+    if (p.materials.size() > size_t(most_materials)) throw std::runtime_error("it has too many materials");
+    if (root.shape("shells")[1] != 2 + Cons::rows(int(p.materials.size()))) throw std::runtime_error("its rows have another length");
     rows = root.read<double>("shells");
   } catch (const std::runtime_error& e) {
     throw wrong(fmt::format("expected the profile that a run along a radius leaves, {}: {}", path, e.what()));
   }
   p.r.push_back(rows.at(0));
-  for (size_t i = 0; i < rows.size(); i += columns) {
+  const size_t variables = size_t(Cons::rows(int(p.materials.size())));
+  for (size_t i = 0; i < rows.size(); i += 2 + variables) {
     p.r.push_back(rows[i + 1]);
-    std::copy_n(rows.begin() + ptrdiff_t(i) + 2, int(Cons::count), p.U.emplace_back().begin());
+    std::copy_n(rows.begin() + ptrdiff_t(i) + 2, variables, p.U.emplace_back().begin());
   }
   return p;
 }

@@ -13,10 +13,10 @@ struct Profile {
   std::string file;
   Geometry geometry = Geometry::spherical;
   double t = 0;                        ///< s
-  std::vector<std::string> materials;  ///< one or two
+  std::vector<std::string> materials;
   std::vector<double> probes;          ///< their e(rho, p) at a few states, to tell other materials of the same name
   std::vector<double> r;               ///< [shells + 1] m
-  std::vector<std::array<double, Cons::count>> U;  ///< [shells] momentum along the radius; E counts from e = 0 of the
+  std::vector<std::array<double, Cons::most>> U;  ///< [shells] momentum along the radius; E counts from e = 0 of the
                                                    ///< equations of state as given (no e_shift); rows as in `materials`
   /// Shells up to here differ from the last one: where the undisturbed gas begins [m].
   double reach() const;

@@ -54,9 +54,10 @@ void paint_vortex(Model& m, const VortexCase& in) {
     for (int c = 0; c < s.cells(); ++c) {
       const int i = c % s.n[0], j = c / s.n[0] % s.n[1], k = c / (s.n[0] * s.n[1]);
       const size_t cell = s.at(k, j, i);
-      const double alpha1 = m.state.block(b, Cons::alpha1)[cell];
-      const int material = alpha1 == 1 ? 0 : 1;
-      if ((alpha1 != 1 && alpha1 != 0) || !medium.is_gas[material]) {
+      double u[Cons::most];
+      for (int q = 0; q < m.state.rows(); ++q) u[q] = m.state.block(b, q)[cell];
+      const int material = medium.material_of(u) - 1;
+      if (material < 0 || !medium.is_gas[material]) {
         other = true;
         continue;
       }

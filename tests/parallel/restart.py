@@ -19,13 +19,15 @@ from fields import history  # noqa: E402
 from launch import ENVIRONMENT  # noqa: E402
 from verification.case import BUILD, WORK, output  # noqa: E402
 
-# levels that change, a burn under way, a body that covers and uncovers cells, one that the flow moves, records of all kinds
+# three materials, levels that change, a burn under way, a body that covers and uncovers cells, one that the flow moves, records of all kinds
 CASE = ("[time]\nend = \"30 us\"\n" + output("5 us", "0 s") + "CHECKPOINT"
         + "[fluid]\nlower = [0, 0, 0]\nupper = [0.4, 0.2, 0.2]\ncells = [64, 32, 1]\n"
         + 'boundary = {x_upper = "outflow", y_upper = "outflow"}\n'
         + "[fluid.amr]\nlevels = 1\nblock = 8\nevery = 3\n"
         + '[[fluid.material]]\nname = "TNT"\nlibrary = "TNT"\n[[fluid.material]]\nname = "air"\nlibrary = "air"\n'
+        + '[[fluid.material]]\nname = "water"\nlibrary = "water"\n'
         + '[[fluid.region]]\nshape = {kind = "everywhere"}\nmaterial = "air"\ndensity = 1.225\npressure = 101325.0\n'
+        + '[[fluid.region]]\nshape = {kind = "half_space", point = [0, 0.05, 0], normal = [0, -1, 0]}\nmaterial = "water"\ndensity = 1000.0\npressure = 101325.0\n'
         + '[[fluid.region]]\nshape = {kind = "cylinder", start = [0.08, 0.06, -1], end = [0.08, 0.06, 1], radius = 0.04}\nmaterial = "TNT"\n'
         + 'unburnt = true\npressure = 101325.0\n[[fluid.burn]]\nmaterial = "TNT"\npoints = [[0.08, 0.06, 0.1]]\n'
         + '[[fluid.body]]\nname = "plate"\nshape = {kind = "box", lower = [0.15, 0.03, -0.1], upper = [0.17, 0.1, 0.3]}\n'

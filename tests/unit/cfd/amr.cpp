@@ -212,7 +212,7 @@ TEST(Levels, LinearProfilesGoThroughALevelJumpUnchanged) {  // ghosts of second 
     for (int k = 0; k < s.n[2]; ++k)
       for (int j = 0; j < s.n[1]; ++j)
         for (int i = 0; i < s.n[0]; ++i) {
-          double W[Prim::stored] = {}, U[Cons::count];
+          double W[Prim::most] = {}, U[Cons::most];
           W[Prim::arho1] = 1, W[Prim::alpha1] = 1;
           W[Prim::p] = p_at(f.m.forest.lower(b) + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z});
           std::visit([&](const auto& pair) { pair.to_conserved(W, U); }, f.m.setup.medium.mixture);

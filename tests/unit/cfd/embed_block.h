@@ -27,7 +27,7 @@ struct OneBlock {
   }
 
   CellReader reader() const {
-    return [this](const Index3& c, double(&U)[Cons::count]) {
+    return [this](const Index3& c, double* U) {
       std::copy_n(u[shape.at(c[2], c[1], c[0])].begin(), int(Cons::count), U);
     };
   }

@@ -18,7 +18,7 @@ void paint_linear(Flow& f) {
       for (int j = 0; j < s.n[1]; ++j)
         for (int i = 0; i < s.n[0]; ++i) {
           const Vec3 x = f.m.forest.lower(b) + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
-          double W[Prim::stored] = {}, U[Cons::count];
+          double W[Prim::most] = {}, U[Cons::most];
           W[Prim::arho1] = 1 + x.y;
           W[Prim::v] = 100 * x.z;
           W[Prim::p] = 1e5 + 1e4 * (x.x + 2 * x.y - 3 * x.z);

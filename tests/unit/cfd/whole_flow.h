@@ -82,8 +82,8 @@ inline Departure departure(const Flow& f, double v, double scale) {
   Departure worst;
   for (int b : f.all())
     for (int c = 0; c < f.m.forest.shape().cells(); ++c) {
-      double U[Cons::count], W[Prim::stored];
-      for (int q = 0; q < Cons::count; ++q) U[q] = f.m.state.block(b, q)[c];
+      double U[Cons::most], W[Prim::most];
+      for (int q = 0; q < f.m.state.rows(); ++q) U[q] = f.m.state.block(b, q)[c];
       std::visit([&](const auto& pair) { pair.to_primitive(U, W, Floors{}); }, f.m.setup.medium.mixture);
       worst.p = std::max(worst.p, std::abs(W[Prim::p] / 101325 - 1));
       worst.v = std::max(worst.v, std::abs(W[Prim::v] - v) / scale);
