@@ -206,6 +206,17 @@ def jwl_air_64():
     return fluid_rows("jwl_air_64", cube(64, 100, text, sheets))
 
 
+def three_64():
+    """Products, helium and air side by side in every block, 64^3"""
+    text = fluid.material("TNT", reference.JWL_SETS["TNT"]) + fluid.material("helium", reference.IdealGas(1.67)) + fluid.material("air", reference.GAS)
+    sheets = fluid.region('{kind = "everywhere"}', "air", 1.2, 1e5)
+    for k in range(16):
+        for name, density, low, high in (("TNT", 50.0, .1, .4), ("helium", 0.17, .4, .7)):
+            sheets += fluid.region(f'{{kind = "box", lower = [-1.0, -1.0, {(k + low) / 16!r}], upper = [2.0, 2.0, {(k + high) / 16!r}]}}', name, density, 1e5,
+                                   [100.0, 50.0 * (k % 3 - 1), 80.0 * (k % 2)])
+    return fluid_rows("three_64", cube(64, 100, text, sheets))
+
+
 def quiescent_share():
     """Cost of a block at rest over a busy block's"""
     air = fluid.material("air", reference.GAS)
@@ -316,6 +327,6 @@ def exchange_share_weapon():
             row("exchange_share_messages", max(messages, sending) / done.seconds, "of the run", CORES, 2)]
 
 
-GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, quiescent_share, amr_overhead],
+GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, three_64, quiescent_share, amr_overhead],
           "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_200k_ms, exchange_share_weapon], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
 STUDIES = {"solid": precision.MAKERS, "fluid": precision_flow.FLUID, "wall": precision_flow.WALL}  # of precision, by room
