@@ -30,13 +30,13 @@ std::pair<sockaddr_un, socklen_t> address_of(const std::string& name) {
 
 }  // namespace
 
-Bell::Bell(const std::string& mine, const std::string& other) {
+Bell::Bell(const std::string& mine, const std::string& other, bool leader) {
   const char* job = std::getenv("PMIX_NAMESPACE");
   if (!job) return;
   const auto [address, length] = address_of(name_of(job, mine));
   descriptor_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor_ < 0) return;
-  if (bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), length) == 0) {
+  if (!leader || bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), length) == 0) {
     other_ = name_of(job, other);
   } else {
     close(descriptor_);

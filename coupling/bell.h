@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bell between the leaders of one job on one host. MPI has no waiting that leaves the core to others: a program that
+// A bell for the leaders of one job on one host. MPI has no waiting that leaves the core to others: a program that
 // waits sleeps and looks, and messages lie there until it does. Who hears the bell looks at once. It carries nothing,
 // and without it (another host, another program, another system) all goes on as before.
 #pragma once
@@ -9,12 +9,13 @@ namespace bw::coupling {
 
 class Bell {
  public:
-  /// mine, other: roles. The job is told by its launcher's environment; without that nothing rings.
-  Bell(const std::string& mine, const std::string& other);
+  /// Of the leader with that role, or one that only rings, of another rank. The job is told by its launcher's
+  /// environment; without that nothing rings.
+  Bell(const std::string& mine, const std::string& other, bool leader);
   ~Bell();
   Bell(const Bell&) = delete;
 
-  /// The other's, if there is one.
+  /// That of the other leader, if there is one.
   void ring() const;
   /// Until mine rings, `limit` s at most.
   void wait(double limit);

@@ -59,7 +59,7 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   bool open = true;
   std::vector<MPI_Request> started;
   std::unique_ptr<StandIn> stand_in;  // then there is no inter
-  std::unique_ptr<Bell> bell;         // between leaders
+  std::unique_ptr<Bell> bell;         // with inter
   std::unique_ptr<Lifeline> line;
   std::optional<Patience> cut;  // since when the line is
 
@@ -212,8 +212,8 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   state_->role = role;
   state_->limits = limits;
   state_->line = std::move(line);
-  if (mine.root())
-    state_->bell = std::make_unique<Bell>(name_of(role), name_of(role == Role::solid ? Role::fluid : Role::solid));
+  const char* other = name_of(role == Role::solid ? Role::fluid : Role::solid);
+  state_->bell = std::make_unique<Bell>(name_of(role), other, mine.root());
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   state_->become_active();
   state_->watch_silence();

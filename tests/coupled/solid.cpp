@@ -73,7 +73,7 @@ int run_solid(const Comm& mine, Channel& channel, const CouplingCase& cs, const 
       if (scenario.is("bad_v")) mark_accident(), wet.v[3].y = NAN;
       if (scenario.is("rank1")) {
         if (mine.rank() == 1) mark_accident(), throw PhysicsError("rank 1 is out of sorts");
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the others could be done before it is heard
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the others could be done before it is heard
       } else if (have_accident(scenario)) {
         return 0;
       }

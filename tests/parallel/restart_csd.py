@@ -98,10 +98,9 @@ def killed(times=4):
 def signal():
     """USR1 asks for a checkpoint, and nothing else happens."""
     out = clean("restart_signal")
-    process = begin("restart_signal", csd.CRACKS, 1, 1)
+    process = begin("restart_signal", csd.CRACKS.replace('end = "26 us"', 'end = "1 ms"\nmax_steps = 2000'), 1, 1)
     while process.poll() is None and not (out / "solid_history.csv").exists():
-        time.sleep(0.02)
-    time.sleep(0.05)
+        time.sleep(0.005)
     process.send_signal(signals.SIGUSR1)
     said = finish(process, "signal")
     print(f"signal: {len(checkpoints(out))} checkpoint, {re.findall('checkpoint at .*', said)}")
