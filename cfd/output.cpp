@@ -113,12 +113,12 @@ void Output::write_free_bodies(const Model& m) {
   for (size_t i = 0; i < free_bodies_.size(); ++i) {
     const RigidBody& b = m.bodies->free()[i].rigid;
     const RigidBody::State& s = b.state();
-    const double half = norm(s.place.turn.v), angle = 2 * std::atan2(half, s.place.turn.w);
+    const double half = norm(s.place.turn.u), angle = 2 * std::atan2(half, s.place.turn.w);
     std::vector<double> row{m.state.t};
     const auto add = [&](const Vec3& v) {
       for (int d = 0; d < 3; ++d) row.push_back(v[d]);
     };
-    add(b.centre()), add(b.velocity()), add(b.spin()), add(half > 0 ? s.place.turn.v / half : Vec3{0, 0, 1});
+    add(b.centre()), add(b.velocity()), add(b.spin()), add(half > 0 ? s.place.turn.u / half : Vec3{0, 0, 1});
     row.push_back(angle);
     add(s.force), add(s.moment), add(s.impulse), add(b.angular_momentum());
     row.push_back(b.kinetic_energy()), row.push_back(s.work);

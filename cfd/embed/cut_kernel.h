@@ -23,7 +23,7 @@
 #include "cfd/embed/mirror.h"
 #include "cfd/embed/orifice.h"
 #include "cfd/embed/wall_gas.h"
-#include "cfd/scheme/block_kernel.h"
+#include "cfd/scheme/side_sums.h"
 
 namespace bw::cfd {
 
@@ -484,24 +484,13 @@ class CutKernel {
     return v < dot(Vec3{inner[Gas::v], inner[Gas::v + 1], inner[Gas::v + 2]}, normal) && v + c >= 0;
   }
 
-  /// Sums over the sides of the block again: the block kernel's hold fluxes through walls.
   void book_sides(BlockChange& change) {
-    for (int d = 0; d < 3; ++d)
-      for (int upper = 0; upper < 2; ++upper) {
-        if (!shape_.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
-        double(&sum)[Cons::most] = change.side[2 * d + upper];
-        std::fill(sum, sum + change.rows, 0.0);
-        Index3 first{0, 0, 0}, last = shape_.n;
-        (upper ? first : last)[size_t(d)] = upper ? shape_.n[size_t(d)] - 1 : 1;
-        for (int k = first[2]; k < last[2]; ++k)
-          for (int j = first[1]; j < last[1]; ++j)
-            for (int i = first[0]; i < last[0]; ++i) {
-              const Cell x = cell_at(k, j, i);
-              if (cuts_->blocked(x.c) || cuts_->cut(x.c, d, upper)) continue;
-              const Face f = upper ? open_face(x, moved(x, d, 1), d) : open_face(moved(x, d, -1), x, d);
-              for (int q = 0; q < n_flux; ++q) sum[flow_->cons_row(q)] += f.F[q];
-            }
-      }
+    sum_sides(shape_, change, [&](int k, int j, int i, int d, int upper, double* sum) {
+      const Cell x = cell_at(k, j, i);
+      if (cuts_->blocked(x.c) || cuts_->cut(x.c, d, upper)) return;
+      const Face f = upper ? open_face(x, moved(x, d, 1), d) : open_face(moved(x, d, -1), x, d);
+      for (int q = 0; q < n_flux; ++q) sum[flow_->cons_row(q)] += f.F[q];
+    });
   }
 
   BlockShape shape_;

@@ -34,24 +34,6 @@ MassProperties solid_of(const std::vector<Vec3>& X, const std::vector<std::array
   return r;
 }
 
-Mat3 Turn::matrix() const {
-  const double x = v.x, y = v.y, z = v.z;
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-           {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
-}
-
-Turn Turn::further(const Turn& t, const Vec3& angle) {
-  const double a = norm(angle);
-  if (a == 0) return t;
-  const double c = std::cos(0.5 * a);
-  const Vec3 s = (std::sin(0.5 * a) / a) * angle;
-  Turn r{c * t.w - dot(s, t.v), c * t.v + t.w * s + cross(s, t.v)};
-  const double size = std::sqrt(r.w * r.w + dot(r.v, r.v));
-  r.w /= size, r.v = r.v / size;
-  return r;
-}
-
 RigidBody::RigidBody(const MassProperties& mass, const std::array<bool, 6>& free, const Vec3& velocity,
                      const Vec3& spin)
     : mass_(mass), free_(free) {
@@ -65,7 +47,7 @@ Vec3 RigidBody::freed(const Vec3& a, int first) const {
   return r;
 }
 
-Mat3 RigidBody::inverse_inertia(const Turn& turn) const {
+Mat3 RigidBody::inverse_inertia(const Attitude& turn) const {
   const Mat3 R = turn.matrix();
   Mat3 I = turn.none() ? mass_.inertia : R * mass_.inertia * transpose(R);
   for (int d = 0; d < 3; ++d)
@@ -79,18 +61,18 @@ Mat3 RigidBody::inverse_inertia(const Turn& turn) const {
 
 Vec3 RigidBody::turn_angle(double dt) const {
   if (!free_[3] && !free_[4] && !free_[5]) return {};
-  const Turn half = Turn::further(s_.place.turn, 0.5 * dt * spin());
+  const Attitude half = s_.place.turn.further(0.5 * dt * spin());
   return s_.turn_gap + dt * (inverse_inertia(half) * (s_.spin_momentum + 0.5 * dt * freed(s_.moment, 3)));
 }
 
 RigidBody::Place RigidBody::after(double dt) const {
   const Vec3 a = freed(s_.force, 0) / mass_.mass;
-  return {s_.place.shift + s_.gap + dt * (s_.velocity + 0.5 * dt * a), Turn::further(s_.place.turn, turn_angle(dt))};
+  return {s_.place.shift + s_.gap + dt * (s_.velocity + 0.5 * dt * a), s_.place.turn.further(turn_angle(dt))};
 }
 
 RigidBody::Place RigidBody::halfway(double dt) const {
   const Place end = after(dt);
-  return {0.5 * (s_.place.shift + end.shift), Turn::further(s_.place.turn, 0.5 * turn_angle(dt))};
+  return {0.5 * (s_.place.shift + end.shift), s_.place.turn.further(0.5 * turn_angle(dt))};
 }
 
 Vec3 RigidBody::position(const Vec3& X, const Place& at) const {

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "common/math/tensor.h"
+#include "common/math/attitude.h"
 
 namespace bw::cfd {
 
@@ -20,16 +20,6 @@ struct MassProperties {
 /// Of density 1 in a closed surface of quads (fans of triangles, cfd/embed/scan.h); mass <= 0: it encloses nothing.
 MassProperties solid_of(const std::vector<Vec3>& X, const std::vector<std::array<int32_t, 4>>& quads);
 
-/// Unit quaternion w + (x, y, z).
-struct Turn {
-  double w = 1;
-  Vec3 v;
-  bool none() const { return w == 1 && v == Vec3{}; }
-  Mat3 matrix() const;
-  /// First `turned`, then a turn by the vector `angle` [rad].
-  static Turn further(const Turn& turned, const Vec3& angle);
-};
-
 class RigidBody {
  public:
   /// free: may it move along x, y, z and turn about x, y, z? velocity [m/s] and spin [rad/s] at the start: 0 where it
@@ -38,7 +28,7 @@ class RigidBody {
 
   struct Place {
     Vec3 shift;  ///< of the centre since the start
-    Turn turn;
+    Attitude turn;
   };
   /// Where the walls are now, and after a window of dt.
   const Place& place() const { return s_.place; }
@@ -57,7 +47,7 @@ class RigidBody {
   Vec3 spin() const { return inverse_inertia(s_.place.turn) * s_.spin_momentum; }
   double kinetic_energy() const;
   /// (R I R^T)^-1 among the turns that are free, 0 elsewhere [1/(kg m^2)].
-  Mat3 inverse_inertia(const Turn& turn) const;
+  Mat3 inverse_inertia(const Attitude& turn) const;
   bool free(int dof) const { return free_[size_t(dof)]; }
 
   /// Plain data: written to checkpoints as it is.

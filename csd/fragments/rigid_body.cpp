@@ -7,19 +7,6 @@
 
 namespace bw::csd {
 
-Attitude Attitude::by(const Vec3& angle) {
-  const double a = norm(angle);
-  if (a == 0) return {};
-  return {std::cos(0.5 * a), (std::sin(0.5 * a) / a) * angle};
-}
-
-Mat3 Attitude::matrix() const {
-  const double xx = u.x * u.x, yy = u.y * u.y, zz = u.z * u.z;
-  return {{{1 - 2 * (yy + zz), 2 * (u.x * u.y - w * u.z), 2 * (u.x * u.z + w * u.y)},
-           {2 * (u.x * u.y + w * u.z), 1 - 2 * (xx + zz), 2 * (u.y * u.z - w * u.x)},
-           {2 * (u.x * u.z - w * u.y), 2 * (u.y * u.z + w * u.x), 1 - 2 * (xx + yy)}}};
-}
-
 namespace {
 
 /// Turns the body by the midpoint rule over h; P: angular momentum in its frame.

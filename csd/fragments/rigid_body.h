@@ -9,21 +9,9 @@
 #include <vector>
 
 #include "common/data/field.h"
-#include "common/math/tensor.h"
+#include "common/math/attitude.h"
 
 namespace bw::csd {
-
-/// Unit quaternion.
-struct Attitude {
-  double w = 1;
-  Vec3 u{};
-
-  static Attitude by(const Vec3& angle);  ///< rotation vector [rad]
-  friend Attitude operator*(const Attitude& a, const Attitude& b) {
-    return {a.w * b.w - dot(a.u, b.u), a.w * b.u + b.w * a.u + cross(a.u, b.u)};
-  }
-  Mat3 matrix() const;
-};
 
 class RigidBody {
  public:

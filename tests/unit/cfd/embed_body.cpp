@@ -175,7 +175,7 @@ TEST(EmbedRigid, FreeFlightAndTumbling) {
   EXPECT_LT(norm(pushed.centre() - mass.centre - Vec3{1, 0, 1.5}), 1e-13);
   EXPECT_LT(norm(pushed.velocity() - Vec3{2, 0, 3}), 1e-13);
   EXPECT_LT(norm(pushed.spin() - Vec3{0, 0.1, 0}), 1e-13);
-  EXPECT_NEAR(2 * std::atan2(pushed.after(1e-9).turn.v.y, pushed.after(1e-9).turn.w), 0.05, 1e-9);
+  EXPECT_NEAR(2 * std::atan2(pushed.after(1e-9).turn.u.y, pushed.after(1e-9).turn.w), 0.05, 1e-9);
 }
 
 /// Uniform pressure pushes and turns no closed body; faces without fluid take what is beside them; the rest p_ref.
