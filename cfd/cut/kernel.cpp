@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cfd/scheme/side_sums.h"
+#include "cfd/scheme/beside_walls.h"
 
 namespace bw::cfd {
 
@@ -238,14 +238,7 @@ const CutCellKernel::Predicted& CutCellKernel::predicted(const Cell& x) {
   double half[n], mean_w[n];
   std::copy(r.half.begin(), r.half.end(), half);
   std::copy(mean.begin(), mean.end(), mean_w);
-  if (patch_->limited) {
-    const double keep = patch_->row(Prim::order, 0, 0)[x.p];
-    for (int q = 0; q < n; ++q) {
-      half[q] = mean_w[q] + keep * (half[q] - mean_w[q]);
-      for (auto& slope : r.slope) slope[q] *= keep;
-    }
-  }
-  keep_faces_positive(*flow_, mean_w, half, r.slope);
+  limit_cell(*patch_, x.p, *flow_, mean_w, half, r.slope);
   std::copy(half, half + n, r.half.begin());
   predicted_.push_back(r);
   return predicted_.back();

@@ -23,7 +23,7 @@
 #include "cfd/embed/mirror.h"
 #include "cfd/embed/orifice.h"
 #include "cfd/embed/wall_gas.h"
-#include "cfd/scheme/side_sums.h"
+#include "cfd/scheme/beside_walls.h"
 
 namespace bw::cfd {
 
@@ -232,14 +232,7 @@ class CutKernel {
         });
     }
     Flow::predict(half, r.slope, half_lambda_, patch_->row(Prim::rho_c2, 0, 0)[x.p], patch_->row(Prim::dPi, 0, 0)[x.p]);
-    if (patch_->limited) {
-      const double keep = patch_->row(Prim::order, 0, 0)[x.p];
-      for (int q = 0; q < n; ++q) {
-        half[q] = mean_w[q] + keep * (half[q] - mean_w[q]);
-        for (auto& slope : r.slope) slope[q] *= keep;
-      }
-    }
-    keep_faces_positive(*flow_, mean_w, half, r.slope);
+    limit_cell(*patch_, x.p, *flow_, mean_w, half, r.slope);
     for (int q = 0; q < n; ++q) r.half[size_t(q)] = half[q];
     return r;
   }

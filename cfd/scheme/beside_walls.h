@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over the sides of a block anew, where walls have changed the fluxes that the block kernel summed.
+// What kernels do anew that mend a block beside walls after the block kernel: sums over its sides, limits of a cell.
 #pragma once
 #include <algorithm>
 
@@ -22,6 +22,21 @@ void sum_sides(const BlockShape& shape, BlockChange& change, const Add& add) {
         for (int j = first[1]; j < last[1]; ++j)
           for (int i = first[0]; i < last[0]; ++i) add(k, j, i, d, upper, sum);
     }
+}
+
+/// Of the cell at p of the patch: the half step and slopes are cut back where the step wants first order, and face
+/// states kept physical. mean: its W.
+template <class Flow>
+void limit_cell(const Patch& patch, ptrdiff_t p, const Flow& flow, const double (&mean)[Flow::n],
+                double (&half)[Flow::n], double (&slope)[3][Flow::n]) {
+  if (patch.limited) {
+    const double keep = patch.row(Prim::order, 0, 0)[p];
+    for (int q = 0; q < Flow::n; ++q) {
+      half[q] = mean[q] + keep * (half[q] - mean[q]);
+      for (auto& along : slope) along[q] *= keep;
+    }
+  }
+  keep_faces_positive(flow, mean, half, slope);
 }
 
 }  // namespace bw::cfd
