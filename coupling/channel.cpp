@@ -58,6 +58,7 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   double t = 0, waited = 0;
   bool open = true;
   std::vector<MPI_Request> started;
+  bool rung = false;                  // since the last of them
   std::unique_ptr<StandIn> stand_in;  // then there is no inter
   std::unique_ptr<Bell> bell;         // with inter
   std::unique_ptr<Lifeline> line;
@@ -279,11 +280,17 @@ void Channel::send(int tag, const void* data, size_t bytes) {
   MPI_Request request;
   check_mpi(MPI_Isend(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, &request), "MPI_Isend");
   state_->started.push_back(request);
+  state_->rung = false;
+}
+
+void Channel::ring() {
+  if (state_->bell && !state_->rung) state_->bell->ring();
+  state_->rung = true;
 }
 
 void Channel::flush() {
   const Patience patience;
-  if (state_->bell) state_->bell->ring();
+  ring();
   if (state_->line) {  // Open MPI 4.1 may not come back from MPI_Testall when the other end of a connection is gone
     watched = state_->line.get();
     watch_for(is_watched_cut, 1, exit_killed,

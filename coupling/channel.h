@@ -80,6 +80,8 @@ class Channel {
   void send(int tag, std::span<const T> data) {
     send(tag, data.data(), data.size_bytes());
   }
+  /// The other side may look: all that it waits for was started. flush() does so otherwise.
+  void ring();
   /// Waits politely until all that was started is on its way.
   void flush();
   /// Waits politely for a message with one of the tags, which it returns. Fails on FAIL, on silence, and on BYE unless

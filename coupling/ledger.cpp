@@ -12,11 +12,14 @@
 namespace bw::coupling {
 namespace {
 
-/// Entries that two sorted lists of distinct ones have in common.
+/// Entries that two lists of distinct ones have in common.
 int64_t common_entries(const std::vector<int64_t>& a, const std::vector<int64_t>& b) {
-  auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-  int64_t count = x - a.begin();
-  while (x != a.end() && y != b.end()) {
+  const auto [a_rest, b_rest] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  int64_t count = a_rest - a.begin();
+  std::vector<int64_t> rest_of_a(a_rest, a.end()), rest_of_b(b_rest, b.end());  // often none: new faces follow the old
+  std::sort(rest_of_a.begin(), rest_of_a.end());
+  std::sort(rest_of_b.begin(), rest_of_b.end());
+  for (auto x = rest_of_a.begin(), y = rest_of_b.begin(); x != rest_of_a.end() && y != rest_of_b.end();) {
     const bool ahead = *y < *x, behind = *x < *y;
     count += !ahead && !behind;
     x += !ahead, y += !behind;
@@ -37,15 +40,41 @@ SolidTotals& SolidTotals::operator+=(const SolidTotals& b) {
 SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_window, std::span<const Vec3> x_before,
                            std::span<const Vec3> x_after, double h) {
   enum { impulse, moment = 3, work = 6, sums };
-  const auto sum = exact_sums<sums>(f.size(), [&](size_t i, std::array<double, sums>& s) {
+  const auto add_node = [&](size_t i, std::array<double, sums>& s) {
     add_at(s, impulse, f[i]), add_at(s, moment, cross(x_window[i], f[i]));
     s[work] += dot(f[i], x_after[i] - x_before[i]);
-  });
+  };
+  const auto sum = exact_sums<sums>(f.size(), add_node, worth_sharing);
   return {
       .impulse = h * vector_at(sum, impulse), .moment = h * vector_at(sum, moment), .work = sum[work], .substeps = 1};
 }
 
-void Ledger::open(const Window& window, const WetSurface& surface, const Loads& loads) {
+void Ledger::begin(const WetSurface& surface) {
+  surface_ = &surface;
+  born_ = dead_ = 0;
+  if (first_ || surface.topo_version != topo_version_) {
+    if (!first_) {
+      const int64_t kept = common_entries(surface.face_id, face_id_);
+      born_ = int64_t(surface.face_id.size()) - kept;
+      dead_ = int64_t(face_id_.size()) - kept;
+    }
+    face_id_ = surface.face_id;
+    topo_version_ = surface.topo_version;
+    first_ = false;
+  }
+  area_.resize(surface.quads.size()), size_.resize(area_.size()), lever_.resize(area_.size());
+  enum { area, moment = 3, size = 6, sums };
+  const auto sum = exact_sums<sums>(area_.size(), [&](size_t f, std::array<double, sums>& s) {
+    area_[f] = area_vector(surface.x, surface.quads[f]);
+    const Vec3 centre = face_mean(surface.x, surface.quads[f]);
+    size_[f] = norm(area_[f]), lever_[f] = norm(centre);
+    add_at(s, area, area_[f]), add_at(s, moment, cross(centre, area_[f]));
+    s[size] += size_[f];
+  });
+  area_sum_ = vector_at(sum, area), moment_sum_ = vector_at(sum, moment), size_sum_ = sum[size];
+}
+
+void Ledger::open(const Window& window, const Loads& loads) {
   const double work_fluid_sum = row_.work_fluid_sum, work_solid_sum = row_.work_solid_sum;
   const Vec3 advance = row_.advance;
   row_ = LedgerRow{};  // the sums go on
@@ -56,36 +85,19 @@ void Ledger::open(const Window& window, const WetSurface& surface, const Loads& 
   row_.t0 = window.t0;
   row_.t1 = loads.t1;
   row_.fluid = loads.totals;
-  if (first_ || surface.topo_version != topo_version_) {
-    std::vector<int64_t> face_id = surface.face_id;
-    if (!std::is_sorted(face_id.begin(), face_id.end())) std::sort(face_id.begin(), face_id.end());
-    if (!first_) {
-      const int64_t kept = common_entries(face_id, face_id_);
-      row_.born = int64_t(face_id.size()) - kept;
-      row_.dead = int64_t(face_id_.size()) - kept;
-    }
-    face_id_ = std::move(face_id);
-    topo_version_ = surface.topo_version;
-    first_ = false;
-  }
-  surface_ = &surface;
+  row_.born = born_, row_.dead = dead_;
   const double dt = loads.t1 - window.t0;
-  area_.resize(surface.quads.size());
-  enum { area, moment = 3, size = 6, scale, lever, sums };
+  enum { scale, lever, sums };
   const auto sum = exact_sums<sums>(area_.size(), [&](size_t f, std::array<double, sums>& s) {
-    area_[f] = area_vector(surface.x, surface.quads[f]);
-    const Vec3 centre = face_mean(surface.x, surface.quads[f]);
-    const double one = norm(area_[f]);
-    double force = std::abs(loads.p[f]) * one;
-    if (!loads.traction.empty()) force += norm(loads.traction[f]) * one;
-    add_at(s, area, area_[f]), add_at(s, moment, cross(centre, area_[f]));
-    s[size] += one, s[scale] += force, s[lever] += force * norm(centre);
+    double force = std::abs(loads.p[f]) * size_[f];
+    if (!loads.traction.empty()) force += norm(loads.traction[f]) * size_[f];
+    s[scale] += force, s[lever] += force * lever_[f];
   });
-  row_.area = sum[size];
+  row_.area = size_sum_;
   row_.impulse_scale = sum[scale] * dt;
   row_.moment_scale = sum[lever] * dt;
-  reference_impulse_ = (p_ref_ * dt) * vector_at(sum, area);
-  reference_moment_ = (p_ref_ * dt) * vector_at(sum, moment);
+  reference_impulse_ = (p_ref_ * dt) * area_sum_;
+  reference_moment_ = (p_ref_ * dt) * moment_sum_;
 }
 
 void Ledger::add_to_sums(double tolerance) {
@@ -115,9 +127,10 @@ std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
     std::vector<Vec3> gap(x.size());  // beyond where the announced velocity took the fluid's wall
     const double dt = row_.t1 - row_.t0;
     for (size_t i = 0; i < gap.size(); ++i) gap[i] = x_end[i] - (x[i] + dt * v[i]);
-    row_.volume_gap = exact_sums<1>(area_.size(), [&](size_t f, std::array<double, 1>& s) {
+    const auto add_face = [&](size_t f, std::array<double, 1>& s) {
       s[0] += dot(area_[f], face_mean(gap, surface_->quads[f]));
-    })[0];
+    };
+    row_.volume_gap = exact_sums<1>(area_.size(), add_face, worth_sharing)[0];
   }
   const double defect = norm(row_.impulse_defect);
   // a fluid that counts its own step instead of t1 - t0 is off by the rounding of t1: no loss

@@ -63,9 +63,11 @@ class Ledger {
   /// impulse_tolerance: of sum |P A| dt.
   explicit Ledger(double p_ref, double impulse_tolerance = 1e-12) : p_ref_(p_ref), tolerance_(impulse_tolerance) {}
 
-  /// The window's surface (x at t0; v as announced to the fluid), to stay as it is until close(), and the fluid's
-  /// answer.
-  void open(const Window& window, const WetSurface& surface, const Loads& loads);
+  /// The coming window's surface (x at t0; v as announced to the fluid), to stay as it is until close(). What does not
+  /// ask for the fluid's answer is summed up here, while the fluid is at it.
+  void begin(const WetSurface& surface);
+  /// That answer, for that surface.
+  void open(const Window& window, const Loads& loads);
   void add(const SolidTotals& substep) { row_.solid += substep; }
   /// Impulse [N s] and work [J] of forces inside the window that are no part of the fluid's answer.
   void add_advance(const Vec3& impulse, double work) {
@@ -92,9 +94,13 @@ class Ledger {
   double p_ref_, tolerance_;
   bool first_ = true;
   int64_t topo_version_ = -1;
-  const WetSurface* surface_ = nullptr;        // of the window in hand
-  std::vector<int64_t> face_id_;               // sorted
+  const WetSurface* surface_ = nullptr;  // of the window in hand
+  std::vector<int64_t> face_id_;
+  int64_t born_ = 0, dead_ = 0;                // of its faces
   std::vector<Vec3> area_;                     // [n_faces] m^2, at the window's start
+  std::vector<double> size_, lever_;           // [n_faces] m^2, m: of these, and of their centres
+  Vec3 area_sum_, moment_sum_;                 // m^2, m^3
+  double size_sum_ = 0;                        // m^2
   Vec3 reference_impulse_, reference_moment_;  // of p_ref A dt
   LedgerRow row_;
   LedgerSums sums_;

@@ -40,14 +40,15 @@ FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span
   const double dt =
       loads.t1 - window.t0;  // not the fluid's own step: t1 is rounded, and both sides must count the same time
   enum { impulse, moment = 3, work = 6, swept, sums };
-  const auto sum = exact_sums<sums>(loads.p.size(), [&](size_t f, std::array<double, sums>& s) {
+  const auto add_face = [&](size_t f, std::array<double, sums>& s) {
     const auto& q = surface.quads[f];
     const Vec3 area = area_vector(surface.x, q), v = face_mean(v_wall, q);
     Vec3 force = -loads.p[f] * area;
     if (!loads.traction.empty()) force += norm(area) * loads.traction[f];
     add_at(s, impulse, force), add_at(s, moment, cross(face_mean(surface.x, q), force));
     s[work] += dot(force, v), s[swept] += dot(area, v);
-  });
+  };
+  const auto sum = exact_sums<sums>(loads.p.size(), add_face, worth_sharing);
   FluidTotals totals;
   totals.impulse = dt * vector_at(sum, impulse);
   totals.moment = dt * vector_at(sum, moment);

@@ -45,10 +45,24 @@ Verdict check_finite(const char* name, const char* what, const std::vector<Vec3>
 Verdict check_distinct(const char* name, const std::vector<int64_t>& ids) {
   const auto not_below = [](int64_t a, int64_t b) { return a >= b; };
   if (std::adjacent_find(ids.begin(), ids.end(), not_below) == ids.end()) return {};  // sorted already
+  const auto occurs_twice = [&](int64_t id) {
+    return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, id)};
+  };
+  const auto [least, most] = std::minmax_element(ids.begin(), ids.end());
+  const uint64_t first = uint64_t(*least), span = uint64_t(*most) - first;
+  if (span / 64 <= ids.size()) {  // dense, as a mesh's are
+    std::vector<bool> seen(size_t(span) + 1);
+    for (const int64_t id : ids) {
+      const uint64_t at = uint64_t(id) - first;
+      if (seen[at]) return occurs_twice(id);
+      seen[at] = true;
+    }
+    return {};
+  }
   std::vector<int64_t> sorted = ids;
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) return Fault{exit_bad_value, fmt::format("SURFACE: {} {} occurs twice", name, *twice)};
+  if (twice != sorted.end()) return occurs_twice(*twice);
   return {};
 }
 

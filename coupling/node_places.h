@@ -10,36 +10,27 @@
 
 namespace bw::coupling {
 
-/// Places of node ids in the arrays of a surface. Ids are often sorted, and often those of the surface before with a
-/// few more.
+/// Places of node ids in the arrays of a surface: found at once where ids are dense, as a mesh's are, else by search.
 class NodePlaces {
  public:
   NodePlaces() = default;
-  explicit NodePlaces(const WetSurface& surface) : sorted_(surface.node_id.size()) {
-    for (size_t i = 0; i < sorted_.size(); ++i) sorted_[i] = {surface.node_id[i], int64_t(i)};
-    in_order_ = std::is_sorted(sorted_.begin(), sorted_.end());
-    if (!in_order_) std::sort(sorted_.begin(), sorted_.end());
-  }
+  explicit NodePlaces(const WetSurface& surface) : ids_(surface.node_id) { index(); }
   /// Are the nodes of that surface these, in the same places?
-  bool are_of(const WetSurface& surface) const {
-    const auto is_place = [](const std::pair<int64_t, int64_t>& a, const int64_t& id) { return a.first == id; };
-    return in_order_ &&
-           std::equal(sorted_.begin(), sorted_.end(), surface.node_id.begin(), surface.node_id.end(), is_place);
-  }
+  bool are_of(const WetSurface& surface) const { return ids_ == surface.node_id; }
   /// In a checkpoint.
   template <class A>
   void keep(A& a) {
-    std::vector<int64_t> ids, places;
-    for (const auto& [id, place] : sorted_) ids.push_back(id), places.push_back(place);
-    a.list("ids", ids), a.list("places", places);
-    sorted_.clear();
-    for (size_t i = 0; i < ids.size(); ++i) sorted_.push_back({ids[i], places[i]});
+    a.list("ids", ids_);
+    index();
   }
   /// -1: not there.
   int64_t find(int64_t id) const {
-    if (++hint_ >= sorted_.size() || sorted_[hint_].first != id)
-      hint_ = size_t(std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, int64_t(-1)}) - sorted_.begin());
-    return hint_ < sorted_.size() && sorted_[hint_].first == id ? sorted_[hint_].second : -1;
+    if (sorted_.empty()) {
+      const uint64_t at = uint64_t(id) - first_;
+      return at < place_.size() ? place_[at] : -1;
+    }
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{id, int32_t(0)});
+    return found != sorted_.end() && found->first == id ? found->second : -1;
   }
   /// Place here of node i of a later surface or of its nearest ancestor; -1: none was here. Parents may have been split
   /// in the same window: `now` are the places in the later surface.
@@ -57,9 +48,27 @@ class NodePlaces {
   }
 
  private:
-  std::vector<std::pair<int64_t, int64_t>> sorted_;  // id, place
-  bool in_order_ = false;                            // places ascend with ids
-  mutable size_t hint_ = 0;                          // the last one found
+  void index() {
+    place_.clear(), sorted_.clear();
+    if (ids_.empty()) return;
+    const auto [least, most] = std::minmax_element(ids_.begin(), ids_.end());
+    first_ = uint64_t(*least);
+    const uint64_t span = uint64_t(*most) - first_;
+    const bool dense = span / 8 <= ids_.size();
+    if (dense) place_.assign(size_t(span) + 1, -1);
+    for (size_t i = 0; i < ids_.size(); ++i) {
+      if (dense)
+        place_[uint64_t(ids_[i]) - first_] = int32_t(i);
+      else
+        sorted_.push_back({ids_[i], int32_t(i)});
+    }
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  std::vector<int64_t> ids_;                         // by place
+  uint64_t first_ = 0;                               // the least of them
+  std::vector<int32_t> place_;                       // [id - first_] -1: no such id
+  std::vector<std::pair<int64_t, int32_t>> sorted_;  // id, place; in place of place_ where ids are sparse
 };
 
 }  // namespace bw::coupling

@@ -108,6 +108,8 @@ void SolidSide::send(Window window, WetSurface& surface, std::span<const double>
     channel_.send(tag_ids, std::span<const int64_t>(ids_));
     channel_.send(tag_faces, std::span<const int32_t>(faces_));
   }
+  channel_.ring();
+  ledger_.begin(surface);  // a core that the fluid, which receives on one, doesn't use yet
   channel_.flush();
 }
 
@@ -176,7 +178,7 @@ const Loads& SolidSide::receive() {
   if (channel_.leader()) {
     predictor_.window_lasted(dt);
     if (case_.kind() == Scheme::concurrent) expected_.answered(*sent_, loads_);
-    ledger_.open(window_, *sent_, loads_);
+    ledger_.open(window_, loads_);
     ledger_.set_added_mass(added_mass_.answer(loads_.impedance, dt));
   }
   return loads_;

@@ -23,11 +23,11 @@ class WallPath {
       x_ = surface.x;
     } else if (!same) {
       const std::vector<Vec3> before = std::move(x_);
-      const NodePlaces now(surface);
+      NodePlaces now(surface);
       x_ = surface.x;
       for (size_t i = 0; i < x_.size(); ++i)
         if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0) x_[i] = before[size_t(old)];
-      places_ = now;
+      places_ = std::move(now);
     }
     topo_version_ = surface.topo_version;
     target_ = surface.x;

@@ -128,6 +128,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   if (expected) expected_ = Expected{on_faces, positions(m), m.state.t, {}};
   back_ = back.empty() ? std::vector<Vec3>{} : coupling::nodal_loads(surface_.wet(), back);
   std::vector<std::pair<Face, Vec3>> forces;
+  forces.reserve(on_faces.size());
   for (size_t i = 0; i < on_faces.size(); ++i)
     forces.emplace_back(surface_.faces()[i], back.empty() ? on_faces[i] : on_faces[i] + back[i]);
   change_given_forces(m, std::move(forces));

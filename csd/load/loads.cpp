@@ -42,15 +42,16 @@ void Loads::follow(const std::vector<NodeId>& nodes) {
   if (nodes_.size() > before) std::sort(nodes_.begin(), nodes_.end());
 }
 
-void Loads::add(const Mesh& mesh, double t, State& s) {
+void Loads::add(const Mesh& mesh, double t, State& s, int64_t alone) {
   if (!is_spread_) spread_given(mesh);
   const auto for_loaded = [&](const auto& work) {
-    parallel_for(int64_t(nodes_.size()), [&](int64_t i) { work(nodes_[size_t(i)]); });
+    parallel_for(
+        int64_t(nodes_.size()), [&](int64_t i) { work(nodes_[size_t(i)]); }, alone);
   };
   for_loaded([&](NodeId n) { f_[n] = {}; });
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
   if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
-  if (radiation) radiation->add(mesh, s, f_);
+  if (radiation) radiation->add(mesh, s, f_, alone);
   for_loaded([&](NodeId n) {
     if (s.local.is_due(n)) s.f[n] += f_[n];
   });
@@ -84,7 +85,7 @@ void Loads::replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> f
         if (!is_loaded_[n]) nodes.push_back(n);
   follow(nodes);
   is_spread_ = false;
-  add(mesh, s.t, s);
+  add(mesh, s.t, s, worth_waking);
 }
 
 void Loads::append_copies(std::span<const NodeSplit> splits) {

@@ -19,8 +19,9 @@ std::vector<NodeId> nodes_of_load(const Mesh& mesh, const LoadKind& load);
 class Loads {
  public:
   Loads(const Mesh& mesh, std::vector<LoadKind> kinds);
-  /// Forces at positions s.x and time t; added to s.f of nodes that are due.
-  void add(const Mesh& mesh, double t, State& s);
+  /// Forces at positions s.x and time t; added to s.f of nodes that are due. Of at most `alone` nodes or faces no other
+  /// thread is woken.
+  void add(const Mesh& mesh, double t, State& s, int64_t alone = 256);
   /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are
   /// replaced. The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new
   /// nodes. radiation, where begun, acts likewise.

@@ -59,20 +59,22 @@ void Radiation::bound(const State& s) {
   parallel_for(int64_t(faces_.size()), find_acting, worth_waking);
 }
 
-void Radiation::add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f) {
+void Radiation::add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f, int64_t alone) {
   if (faces_.empty()) return;
   fit(mesh);
   if (s.dt_stable > dt_) bound(s);
-  parallel_for(int64_t(faces_.size()), [&](int64_t i) {
+  const auto find_force = [&](int64_t i) {
     const RadiatingFace& face = faces_[size_t(i)];
     Vec3 v;
     for (const int32_t k : corner_[size_t(i)]) v += 0.25 * s.v[nodes_[size_t(k)]];
     force_[size_t(i)] = -acting_[size_t(i)] * (dot(v, face.n) - face.told);
-  });
-  parallel_for(int64_t(nodes_.size()), [&](int64_t k) {
+  };
+  const auto add_to_node = [&](int64_t k) {
     Vec3& sum = f[nodes_[size_t(k)]];
     for (const int32_t i : around_[k]) sum += (0.25 * force_[size_t(i)]) * faces_[size_t(i)].n;
-  });
+  };
+  parallel_for(int64_t(faces_.size()), find_force, alone);
+  parallel_for(int64_t(nodes_.size()), add_to_node, alone);
 }
 
 void Radiation::book(const Mesh& mesh, const State& s, double h) {

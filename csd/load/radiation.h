@@ -32,8 +32,8 @@ class Radiation {
   void begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest);
   /// Steps of nodes have changed: the bound is taken anew.
   void renew() { dt_ = 0; }
-  /// Forces at s.v, added to f.
-  void add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f);
+  /// Forces at s.v, added to f. Of at most `alone` nodes or faces no other thread is woken.
+  void add(const Mesh& mesh, const State& s, Field<Vec3, NodeId>& f, int64_t alone);
   /// The last add() acts for the time h, at s.v, on nodes that are due; nodes may have been split since.
   void book(const Mesh& mesh, const State& s, double h);
   /// Since begin, of each of its faces [N s].

@@ -35,10 +35,11 @@ bool Surface::update(const Mesh& mesh, const Topology& topology, const Field<Vec
     version_ = topology.version();
     ++wet_.topo_version;
   }
-  parallel_for(int64_t(nodes_.size()), [&](int64_t i) {
+  const auto take_node = [&](int64_t i) {
     wet_.x[size_t(i)] = x[nodes_[size_t(i)]];
     wet_.v[size_t(i)] = v[nodes_[size_t(i)]];
-  });
+  };
+  parallel_for(int64_t(nodes_.size()), take_node, worth_waking);
   return is_new;
 }
 

@@ -71,7 +71,7 @@ TEST(Ledger, BothSidesBalance) {
   const double p_ref = 1e5, t1 = 1 + 3e-6, dt = t1 - 1;
   Ledger ledger(p_ref);
   const Loads loads = loads_for(s, 1, t1);
-  ledger.open({.index = 0, .t0 = 1, .t1_max = 2}, s, loads);
+  ledger.begin(s), ledger.open({.index = 0, .t0 = 1, .t1_max = 2}, loads);
   const auto force = nodal_loads(s, loads, p_ref);
   auto x = s.x;
   for (int step = 0; step < 7; ++step) {
@@ -104,7 +104,7 @@ TEST(Ledger, TheReportNamesWhatIsLost) {
   Ledger ledger(0);
   Loads loads = loads_for(s, 0, dt);
   loads.totals.moment.z *= 1 + 1e-9;
-  ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, s, loads);
+  ledger.begin(s), ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, loads);
   auto x = s.x;
   for (size_t i = 0; i < x.size(); ++i) x[i] += (1.02 * dt) * s.v[i];
   ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, x, dt));
@@ -121,7 +121,7 @@ TEST(Ledger, LostImpulseIsFound) {
   const double dt = 1e-6;
   Ledger ledger(0);
   const Loads loads = loads_for(s, 0, dt);
-  ledger.open({.index = 3, .t0 = 0, .t1_max = 1}, s, loads);
+  ledger.begin(s), ledger.open({.index = 3, .t0 = 0, .t1_max = 1}, loads);
   ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, s.x, dt * (1 + 1e-11)));
   const auto text = ledger.close();
   ASSERT_TRUE(text);
@@ -133,7 +133,7 @@ TEST(Ledger, GapBirthsAndDeaths) {
   const double dt = 1e-6;
   Ledger ledger(0);
   const Loads loads = loads_for(s, 0, dt);
-  ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, s, loads);
+  ledger.begin(s), ledger.open({.index = 0, .t0 = 0, .t1_max = 1}, loads);
   EXPECT_EQ(ledger.row().born, 0);
   // the solid stays: the wall went ahead by v dt, the gap is minus the swept volume
   ledger.add(substep_totals(nodal_loads(s, loads, 0), s.x, s.x, s.x, dt));
@@ -141,7 +141,7 @@ TEST(Ledger, GapBirthsAndDeaths) {
   EXPECT_NEAR(ledger.row().volume_gap, -loads.totals.swept, 1e-10 * std::abs(loads.totals.swept));
   s.face_id[0] = 1000, s.face_id[1] = 1001;
   s.topo_version = 1;
-  ledger.open({.index = 1, .t0 = dt, .t1_max = 1}, s, loads_for(s, dt, 2 * dt));
+  ledger.begin(s), ledger.open({.index = 1, .t0 = dt, .t1_max = 1}, loads_for(s, dt, 2 * dt));
   EXPECT_EQ(ledger.row().born, 2);
   EXPECT_EQ(ledger.row().dead, 2);
 }

@@ -33,7 +33,7 @@ TEST(Radiation, PlaneWaveOfTheDifference) {
   Radiation radiation;
   radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
   Field<Vec3, NodeId> f(scene.mesh.X.size());
-  radiation.add(scene.mesh, scene.s, f);
+  radiation.add(scene.mesh, scene.s, f, 0);
   EXPECT_NEAR(sum_of(f).x, -3 * 400 * 0.0025 * (3 - 1), 1e-12);
   EXPECT_EQ(sum_of(f).y, 0);
   radiation.book(scene.mesh, scene.s, 2e-6);
@@ -50,7 +50,7 @@ TEST(Radiation, DenseGasBeforeLightNodesIsHeldBack) {
   Radiation radiation;
   radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
   Field<Vec3, NodeId> f(scene.mesh.X.size());
-  radiation.add(scene.mesh, scene.s, f);
+  radiation.add(scene.mesh, scene.s, f, 0);
   double largest = 0;  // h c/m, from the forces
   for (size_t n = 0; n < f.size(); ++n)
     largest = std::max(largest, -f[NodeId(int64_t(n))].x / (3 - 1) * scene.s.dt_stable / 0.01);
@@ -80,11 +80,11 @@ TEST(Radiation, LighterChildrenAndLongerStepsAreHeldBackWithinAWindow) {
   scene.s.append_copies(std::span(&split, 1));
   scene.s.m[split.child] = 1e-4, scene.s.m[split.parent] = 0.01 - 1e-4;
   Field<Vec3, NodeId> f(scene.mesh.X.size());
-  radiation.add(scene.mesh, scene.s, f);
+  radiation.add(scene.mesh, scene.s, f, 0);
   EXPECT_NEAR(strongest(scene, f), 0.3, 1e-12);
   scene.s.dt_stable = 2e-6;
   f = Field<Vec3, NodeId>(f.size());
-  radiation.add(scene.mesh, scene.s, f);
+  radiation.add(scene.mesh, scene.s, f, 0);
   EXPECT_NEAR(strongest(scene, f), 0.3, 1e-12);
   radiation.book(scene.mesh, scene.s, 1e-6);
   double given = 0;
@@ -109,7 +109,7 @@ TEST(Radiation, ThreadsDontChangeBits) {
     Radiation radiation;
     radiation.begin(mesh, s, faces, 0.3);
     f.emplace_back(mesh.X.size());
-    radiation.add(mesh, s, f.back());
+    radiation.add(mesh, s, f.back(), 0);
     radiation.book(mesh, s, 1e-6);
     Vec3 sum;
     for (const Vec3& one : radiation.impulses()) sum += one;
