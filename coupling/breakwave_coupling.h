@@ -37,7 +37,12 @@ extern "C" {
 #endif
 
 #define FSI_PROTOCOL_MAJOR 1
-#define FSI_PROTOCOL_MINOR 1
+#define FSI_PROTOCOL_MINOR 2
+
+/* The library's binary interface: this number rises with any change of a struct or function below, members added at an
+ * end included, and is the number in the library's name (libbreakwave_coupling.so.1): a program starts with the
+ * interface that it was compiled for or not at all. One that loads the library by hand asks fsi_abi() first. */
+#define FSI_ABI 1
 
 /* flags of a face */
 #define FSI_FACE_LIP 1  /* made by a crack; its two lips lay on each other when it was born */
@@ -115,6 +120,7 @@ typedef struct fsi_load {
 /* Not collective, needs no MPI. */
 void fsi_defaults(fsi_options* options);
 const char* fsi_version(void); /* of the library, "0.1.0" */
+int fsi_abi(void);             /* FSI_ABI of the library */
 
 /* Joins the run and shakes hands. Read and check your input before. Never NULL. */
 fsi_fluid* fsi_fluid_open(const fsi_options* options);

@@ -24,6 +24,7 @@ Greeting shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hell
     if (const Verdict fault = check_protocol(other, bytes.size())) channel.fail(fault->code, fault->text);
     other.program[sizeof other.program - 1] = other.version[sizeof other.version - 1] = 0;
     channel.set_peer(other.program, std::min(mine.silence_limit, other.silence_limit));
+    if (const Verdict fault = check_minor(mine, other)) channel.fail(fault->code, fault->text);
     if (const Verdict fault = check_agreement(mine, other)) channel.fail(fault->code, fault->text);
     channel.flush();
     result.features = other.features;

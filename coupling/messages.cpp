@@ -113,6 +113,8 @@ HelloBlock pack(const Hello& hello, const CouplingCase& cs, const char* role, in
   put(h.lower, hello.lower);
   put(h.upper, hello.upper);
   h.silence_limit = cs.silence_limit;
+  if (std::string(role) == name_of(Role::solid) && (cs.window > 0 || cs.kind() == Scheme::concurrent))
+    h.minor_needed = minor_of_fixed_windows;
   return h;
 }
 
@@ -126,6 +128,19 @@ Verdict check_protocol(const HelloBlock& other, size_t bytes) {
   if (bytes != sizeof other || other.bytes != sizeof other)
     return Fault{exit_malformed, fmt::format("HELLO has {} bytes, {} were expected", bytes, sizeof other)};
   return {};
+}
+
+Verdict check_minor(const HelloBlock& mine, const HelloBlock& other) {
+  const auto speaks = [](const HelloBlock& listener, const HelloBlock& needs) -> Verdict {
+    if (listener.minor >= needs.minor_needed) return {};
+    const bool fixed = needs.minor_needed == minor_of_fixed_windows;
+    return Fault{exit_version, fmt::format("HELLO: {} needs protocol {}.{} in this run{}, {} speaks {}.{} only",
+                                           text(needs.program), needs.major, needs.minor_needed,
+                                           fixed ? " (fixed windows: coupling.window, or scheme concurrent)" : "",
+                                           text(listener.program), listener.major, listener.minor)};
+  };
+  if (auto fault = speaks(other, mine)) return fault;
+  return speaks(mine, other);
 }
 
 Verdict check_agreement(const HelloBlock& mine, const HelloBlock& other) {

@@ -14,7 +14,8 @@ namespace bw::coupling {
 
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian");
 
-constexpr uint32_t protocol_major = 1, protocol_minor = 1;
+constexpr uint32_t protocol_major = 1, protocol_minor = 2;
+constexpr uint32_t minor_of_fixed_windows = 1, minor_of_minor_needed = 2;
 constexpr char protocol_magic[9] = "BWCOUPL\n";
 constexpr uint32_t protocol_endian = 0x01020304;
 
@@ -47,7 +48,8 @@ struct HelloBlock {
   int64_t restart_id, restart_window;
   uint64_t restart_hash;
   double silence_limit;
-  char reserved[40];
+  uint32_t minor_needed;  // that the other one must speak
+  char reserved[36];
 };
 static_assert(sizeof(HelloBlock) == 296);
 
@@ -126,6 +128,9 @@ using Verdict = std::optional<Fault>;
 HelloBlock pack(const Hello& hello, const CouplingCase& cs, const char* role, int ranks);
 /// First of all: is this our protocol, in our version? `bytes` is what arrived.
 Verdict check_protocol(const HelloBlock& other, size_t bytes);
+/// Does each speak the minor version that the other one needs in this run? Before check_agreement: an old program may
+/// not know what it contradicts.
+Verdict check_minor(const HelloBlock& mine, const HelloBlock& other);
 /// Do the two cases agree? And do surface and domain meet? Either may be the solid's.
 Verdict check_agreement(const HelloBlock& mine, const HelloBlock& other);
 /// Warning text when the surface lies partly outside the domain; empty when all is well.

@@ -22,6 +22,10 @@ static_assert(FSI_SCHEME_FLUID_FIRST == int(Scheme::fluid_first) && FSI_SCHEME_B
               FSI_SCHEME_CONCURRENT == int(Scheme::concurrent));
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(std::array<int32_t, 4>) == 4 * sizeof(int32_t));
 
+// a struct of another size is another FSI_ABI
+static_assert(FSI_ABI == 1 && (sizeof(void*) != 8 ||
+                               (sizeof(fsi_options) == 128 && sizeof(fsi_surface) == 168 && sizeof(fsi_load) == 136)));
+
 struct fsi_fluid {
   CouplingCase cs;
   bool owns_mpi = false;
@@ -152,6 +156,7 @@ void fsi_defaults(fsi_options* options) {
 }
 
 const char* fsi_version() { return version(); }
+int fsi_abi() { return FSI_ABI; }
 
 fsi_fluid* fsi_fluid_open(const fsi_options* options) {
   return in_c(nullptr, [&] {

@@ -142,7 +142,8 @@ void Fluid::have_accident(const FluidSide& side, Loads loads) {
 
 int play_fluid(Channel& channel, const Options& o) {
   Fluid fluid(channel, o);
-  if (fluid.is("version") || fluid.is("magic") || fluid.is("p_ref") || fluid.is("apart")) fluid.say_strange_hello();
+  if (fluid.is("version") || fluid.is("minor") || fluid.is("magic") || fluid.is("p_ref") || fluid.is("apart"))
+    fluid.say_strange_hello();
   return fluid.run();
 }
 

@@ -164,7 +164,7 @@ void Solid::send_strange_surface() {
 
 int play_solid(Channel& channel, const Options& o) {
   Solid solid(channel, o);
-  if (solid.is("version") || solid.is("magic") || solid.is("p_ref"))
+  if (solid.is("version") || solid.is("minor") || solid.is("magic") || solid.is("p_ref"))
     solid.say_strange_hello();
   else if (solid.is("nan") || solid.is("index") || solid.is("size") || solid.is("order") || solid.is("hash") ||
            solid.is("fail") || solid.is("silence") || solid.is("death"))

@@ -50,6 +50,10 @@ constexpr Scenario against_fluid[] = {
      .code = exit_malformed,
      .timed = true},
     {.name = "version", .expected = "HELLO of major version 2: code 65", .code = exit_version, .timed = true},
+    {.name = "minor",
+     .expected = "a solid that needs a minor version yet to come: code 65",
+     .code = exit_version,
+     .timed = true},
     {.name = "magic", .expected = "HELLO of another protocol: code 64", .code = exit_protocol, .timed = true},
     {.name = "p_ref", .expected = "another reference pressure: code 66", .code = exit_disagreement, .timed = true},
     {.name = "fail", .expected = "FAIL with code 42: the program ends with 42 too", .code = 42, .timed = true},
@@ -88,6 +92,10 @@ constexpr Scenario against_solid[] = {
      .timed = true},
     {.name = "bye", .expected = "BYE instead of LOAD: code 76", .code = exit_bye, .timed = true},
     {.name = "version", .expected = "HELLO of major version 2: code 65", .code = exit_version, .timed = true},
+    {.name = "minor",
+     .expected = "a fluid that needs a minor version yet to come: code 65",
+     .code = exit_version,
+     .timed = true},
     {.name = "magic", .expected = "HELLO of another protocol: code 64", .code = exit_protocol, .timed = true},
     {.name = "p_ref", .expected = "another reference pressure: code 66", .code = exit_disagreement, .timed = true},
     {.name = "apart", .expected = "a domain far from the surface: code 67", .code = exit_apart, .timed = true},
@@ -129,14 +137,18 @@ void keep_silent(Channel& channel, const Options& options) {
 
 void strange_hello(Channel& channel, HelloBlock h, const std::string& scenario) {
   if (scenario == "version") h.major = 2;
+  if (scenario == "minor") h.minor_needed = protocol_minor + 1;
   if (scenario == "magic") std::memset(h.magic, 'x', sizeof h.magic);
   if (scenario == "p_ref") h.p_ref = 2 * h.p_ref + 1;
   if (scenario == "apart")
     for (double& x : h.lower) x = 9e29;
-  channel.wait({tag_hello});
+  HelloBlock other{};
+  channel.receive(tag_hello, "HELLO", &other, sizeof other);
   mark_accident();
   channel.send(tag_hello, &h, sizeof h);
   channel.flush();
+  if (scenario == "minor" && other.minor < minor_of_minor_needed)  // it can't know: who needs more refuses it
+    channel.fail(exit_version, check_minor(h, other)->text);
 }
 
 }  // namespace bw::coupling::check

@@ -15,8 +15,10 @@ target_link_libraries(breakwave_coupling PRIVATE bw_coupling)
 target_link_options(breakwave_coupling PRIVATE -Wl,--exclude-libs,ALL -Wl,--as-needed -Wl,--gc-sections)
 target_include_directories(breakwave_coupling INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/coupling>
                                                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+file(STRINGS ${CMAKE_SOURCE_DIR}/coupling/breakwave_coupling.h abi REGEX "#define FSI_ABI ")
+string(REGEX REPLACE "#define FSI_ABI " "" abi ${abi})
 set_target_properties(breakwave_coupling PROPERTIES
-  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib
+  VERSION ${abi}.${PROJECT_VERSION} SOVERSION ${abi} LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib
   PUBLIC_HEADER ${CMAKE_SOURCE_DIR}/coupling/breakwave_coupling.h)
 
 file(GLOB check CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/coupling/check/*.cpp)
@@ -29,7 +31,7 @@ install(TARGETS breakwave_coupling EXPORT breakwave_coupling LIBRARY DESTINATION
         PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/breakwave_coupling)
 install(EXPORT breakwave_coupling NAMESPACE breakwave:: DESTINATION ${package} FILE breakwave_coupling-config.cmake)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/breakwave_coupling-config-version.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/breakwave_coupling-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/breakwave_coupling-config-version.cmake DESTINATION ${package})
 file(RELATIVE_PATH include_from_lib ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 configure_file(${CMAKE_CURRENT_LIST_DIR}/breakwave_coupling.pc.in ${CMAKE_BINARY_DIR}/breakwave_coupling.pc @ONLY)

@@ -21,6 +21,7 @@ import traceback
 
 import numpy as np
 
+ABI = 1                              # of the library: FSI_ABI, whose structs are below
 LIP, THIN = 1, 2                     # flags of a face: lip of a crack; open shell, wet on both sides
 SCHEMES = {None: 0, "fluid_first": 1, "box1": 2, "concurrent": 3}
 _f64, _i64, _i32, _int = ctypes.c_double, ctypes.c_int64, ctypes.c_int32, ctypes.c_int
@@ -55,6 +56,8 @@ def _load_library():
     near = [root / "build" / "lib" / name, *sorted(root.parent.glob(f"lib*/{name}")), *sorted(root.parent.glob(f"lib/*/{name}"))]
     path = named or next((str(file) for file in near if file.exists()), name)
     library = ctypes.CDLL(path, mode=ctypes.RTLD_GLOBAL)  # global: MPI's own plug-ins need MPI's symbols
+    if not hasattr(library, "fsi_abi") or library.fsi_abi() != ABI:
+        raise ImportError(f"{path} has another binary interface than this module (fsi_abi() {ABI}): take both from one installation")
     handle = ctypes.c_void_p
     for function, result, *arguments in (
             ("fsi_defaults", None, ctypes.POINTER(_Options)), ("fsi_version", ctypes.c_char_p),

@@ -19,6 +19,8 @@ void say_strange_hello(Channel& channel, const CouplingCase& cs, const Hello& he
   mark_accident();
   HelloBlock h = pack(hello, cs, "fluid", 1);
   if (scenario.is("version")) h.major = 2;
+  if (scenario.is("old")) h.minor = 0;
+  if (scenario.is("newer")) h.minor_needed = protocol_minor + 1;
   if (scenario.is("magic")) std::memset(h.magic, 'x', sizeof h.magic);
   if (scenario.is("endian")) h.endian = 0x04030201;
   channel.send(tag_hello, &h, scenario.is("short_hello") ? 100 : sizeof h);
@@ -50,7 +52,8 @@ void send_strange_load(Channel& channel, const FluidSide& side, Loads loads, con
 int run_fluid(const Comm& mine, Channel& channel, const CouplingCase& cs, const Scenario& scenario) {
   const Hello hello{
       .program = "dummy fluid", .version = "1", .t_end = 2 * t_end, .lower = {0, 0, 0}, .upper = {1, 1, 1}};
-  if (scenario.is("version") || scenario.is("magic") || scenario.is("endian") || scenario.is("short_hello"))
+  if (scenario.is("version") || scenario.is("old") || scenario.is("newer") || scenario.is("magic") ||
+      scenario.is("endian") || scenario.is("short_hello"))
     say_strange_hello(channel, cs, hello, scenario);
   FluidSide side(channel, cs, hello);
   while (side.receive()) {

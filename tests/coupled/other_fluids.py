@@ -134,6 +134,9 @@ def installed():
     library = pathlib.Path(paths["libdir"].replace("${pcfiledir}", str(pc.parent)))
     include = pathlib.Path(paths["includedir"].replace("${libdir}", str(library)))
     there = (library / "libbreakwave_coupling.so").exists() and (include / "breakwave_coupling.h").exists()
+    linked = subprocess.run(["ldd", client / "gas"], capture_output=True, text=True).stdout
+    abi = re.search(r"#define FSI_ABI (\d+)", (include / "breakwave_coupling.h").read_text(encoding="utf-8")).group(1)
+    report("name of the library", "" if f"libbreakwave_coupling.so.{abi} =>" in linked else linked)
     report("pkg-config file", "" if there and "-lbreakwave_coupling" in text else text)
     module = next(prefix.rglob("breakwave_coupling.py")).parent
     done = subprocess.run([PYTHON, "-c", "import breakwave_coupling as b; b._library(); print(b.version())"], cwd=module, capture_output=True, text=True)

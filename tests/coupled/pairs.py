@@ -36,7 +36,9 @@ SCENES = {
         ("fluid:stop", PAIR, 0, ["4 windows"], ["finished after window 3"]),
     ],
     "messages": [
-        ("fluid:version", PAIR, 65, [r"protocol version 1\.1 here, 2\.1 in the other"], ["protocol version"]),
+        ("fluid:version", PAIR, 65, [r"protocol version 1\.2 here, 2\.2 in the other"], ["protocol version"]),
+        ("fluid:old", PAIR, 65, [r"dummy solid needs protocol 1\.1 in this run \(fixed windows.*dummy fluid speaks 1\.0 only"], [r"the other program \(rank 0\) FAILED.*needs protocol 1\.1"]),
+        ("fluid:newer", PAIR, 65, [r"dummy fluid needs protocol 1\.3 in this run, dummy solid speaks 1\.2 only"], [r"needs protocol 1\.3"]),
         ("fluid:magic", PAIR, 64, ["does not speak this protocol"], ["does not speak"]),
         ("fluid:endian", PAIR, 64, ["byte order"], ["byte order"]),
         ("fluid:short_hello", PAIR, 68, ["HELLO has 100 bytes"], ["HELLO has 100 bytes"]),

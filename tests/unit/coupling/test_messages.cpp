@@ -53,6 +53,7 @@ TEST(Wire, BlocksLieAsTheProtocolSays) {
   EXPECT_OFFSET("HELLO", HelloBlock, lower);
   EXPECT_OFFSET("HELLO", HelloBlock, restart_id);
   EXPECT_OFFSET("HELLO", HelloBlock, silence_limit);
+  EXPECT_OFFSET("HELLO", HelloBlock, minor_needed);
   EXPECT_OFFSET("STEP", StepBlock, window);
   EXPECT_OFFSET("STEP", StepBlock, n_faces);
   EXPECT_OFFSET("STEP", StepBlock, t1_max);
@@ -84,6 +85,24 @@ TEST(Wire, HelloRoundTripAgrees) {
   EXPECT_EQ(overlap_warning(a, b), "");
   cs.scheme = "box1";
   EXPECT_EQ(check_agreement(a, pack(fluid, cs, "fluid", 2))->code, exit_disagreement);
+}
+
+TEST(Wire, MinorVersionsThatARunNeeds) {
+  CouplingCase cs;
+  HelloBlock fluid = pack({.program = "old", .lower = {0, 0, 0}, .upper = {1, 1, 1}}, cs, "fluid", 1);
+  const auto of_solid = [&] { return pack({.program = "csd"}, cs, "solid", 1); };
+  fluid.minor = 0;
+  EXPECT_FALSE(check_minor(of_solid(), fluid));
+  cs.window = 1e-6;
+  EXPECT_EQ(check_minor(of_solid(), fluid)->code, exit_version);
+  EXPECT_EQ(check_minor(fluid, of_solid())->text, check_minor(of_solid(), fluid)->text);
+  EXPECT_NE(check_minor(of_solid(), fluid)->text.find("needs protocol 1.1"), std::string::npos);
+  cs.window = 0, cs.scheme = "concurrent";
+  EXPECT_EQ(check_minor(of_solid(), fluid)->code, exit_version);
+  fluid.minor = 1;
+  EXPECT_FALSE(check_minor(of_solid(), fluid));
+  fluid.minor_needed = protocol_minor + 1;
+  EXPECT_EQ(check_minor(of_solid(), fluid)->code, exit_version);
 }
 
 TEST(Wire, PartlyOutsideWarnsApartFails) {
