@@ -214,7 +214,7 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   state_->limits = limits;
   state_->line = std::move(line);
   const char* other = name_of(role == Role::solid ? Role::fluid : Role::solid);
-  state_->bell = std::make_unique<Bell>(name_of(role), other, mine.root());
+  state_->bell = std::make_unique<Bell>(name_of(role), other, mine.rank());
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   state_->become_active();
   state_->watch_silence();
@@ -371,7 +371,7 @@ void Channel::poll() {
   state_->look_for_failure();
 }
 
-void Channel::share(void* data, size_t bytes) { share_politely(mine(), data, bytes); }
+void Channel::share(void* data, size_t bytes) { share_politely(mine(), data, bytes, state_->bell.get()); }
 
 void Channel::fail(int code, const std::string& text) { state_->end(code, text); }
 

@@ -24,21 +24,31 @@ class Patience {
     if (waited < 50e-6) return;
     bell.wait(bell.is_known() ? 5e-3 : std::clamp(waited / 64, 50e-6, 2e-3));
   }
+  /// The same for one who doesn't know how often it will ring: from then on it is as if the waiting had just begun.
+  void rest_anew(Bell& bell) {
+    const double waited = seconds();
+    if (waited >= 50e-6 && bell.wait(std::clamp(waited / 64, 50e-6, 2e-3))) *this = {};
+  }
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Rank 0's bytes to all ranks.
-inline void share_politely(const Comm& comm, void* data, size_t bytes) {
+/// Rank 0's bytes to all ranks; with a bell, which it rings, the others don't sleep on.
+inline void share_politely(const Comm& comm, void* data, size_t bytes, Bell* bell = nullptr) {
   if (comm.size() == 1 || bytes == 0) return;
   MPI_Request request;
   check_mpi(MPI_Ibcast(data, int(bytes), MPI_BYTE, 0, comm.raw(), &request), "MPI_Ibcast");
-  const Patience patience;
+  for (int rank = 1; bell && comm.root() && rank < comm.size(); ++rank) bell->ring(rank);
+  Patience patience;
   for (int done = 0; !done;) {
     check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
-    if (!done) patience.rest();
+    if (done) break;
+    if (bell && !comm.root())
+      patience.rest_anew(*bell);
+    else
+      patience.rest();
   }
 }
 

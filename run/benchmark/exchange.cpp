@@ -2,7 +2,8 @@
 // What an exchange costs: mpirun -n 1 bench_exchange solid <faces> : -n 1 bench_exchange fluid <faces>
 // Both sides do nothing but exchange; the solid prints "geometry_ms <a>" (connectivity unchanged), "full_ms <b>" (new
 // connectivity every window), both also of the fastest window (on a machine that is shared), and "wait_cpu_share <c>":
-// processor time that the solid uses while it waits for a fluid that sleeps.
+// processor time that the solid uses while it waits for a fluid that sleeps, and "late_ms <d>": how long after such a
+// fluid has woken all ranks of the solid are through the exchange.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,6 +25,7 @@ using namespace bw::coupling;
 
 constexpr int quiet_windows = 100, full_windows = 40, sleepy_windows = 5, warm_up = 10;
 constexpr double dt = 1e-6;
+constexpr std::chrono::milliseconds nap{400};
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -64,6 +66,7 @@ int play_solid(Channel& channel, const CouplingCase& cs, int64_t faces) {
     if (w >= first_full && w < first_sleepy) wet.topo_version += 1;
     side.send({.t0 = t, .t1_max = t + dt, .dt_stable = dt}, wet);
     const Loads& loads = side.receive();
+    if (w >= first_sleepy) channel.mine().barrier();
     t = loads.t1;
     side.add(SolidTotals{});  // the fluid is at the reference pressure: no impulse
     side.end_window();
@@ -72,6 +75,7 @@ int play_solid(Channel& channel, const CouplingCase& cs, int64_t faces) {
   const double slept = now() - start;
   cpu = cpu_seconds() - cpu;
   side.finish();
+  if (!channel.mine().root()) return 0;
   const auto tell = [&](const char* name, int from, int to) {
     double best = ended[size_t(to) - 1] - ended[size_t(from) - 1];
     const double mean = best / (to - from);
@@ -81,6 +85,7 @@ int play_solid(Channel& channel, const CouplingCase& cs, int64_t faces) {
   tell("geometry", warm_up, first_full);
   tell("full", first_full, first_sleepy);
   std::printf("wait_cpu_share %.5f\n", cpu / slept);
+  std::printf("late_ms %.4f\n", 1e3 * slept / sleepy_windows - double(nap.count()));
   return 0;
 }
 
@@ -88,8 +93,7 @@ int play_fluid(Channel& channel, const CouplingCase& cs) {
   FluidSide side(channel, cs, {.program = "bench", .version = "1", .lower = {0, 0, 0}, .upper = {1, 1, 1}});
   Loads loads;
   while (side.receive()) {
-    if (side.window().index >= warm_up + quiet_windows + full_windows)
-      std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    if (side.window().index >= warm_up + quiet_windows + full_windows) std::this_thread::sleep_for(nap);
     loads.t1 = side.window().t1_max;
     loads.p.assign(side.surface().quads.size(), cs.reference_pressure);
     loads.totals = wall_totals(side.surface(), loads, side.surface().v, side.window());

@@ -280,19 +280,19 @@ def geometry_share_200k():
 
 
 # --- coupling ---------------------------------------------------------------------------------------------------------------------------
-def exchange(faces):
+def exchange(faces, ranks=1):
     build("bench_exchange")
     binary = str(BUILD / "bin" / "bench_exchange")
     line = subprocess.run([str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout
     environment = os.environ | dict(item.split("=", 1) for item in line.split())
-    done = subprocess.run(["mpirun", "-n", "1", binary, "solid", str(faces), ":", "-n", "1", binary, "fluid", str(faces)], env=environment,
+    done = subprocess.run(["mpirun", "-n", str(ranks), binary, "solid", str(faces), ":", "-n", str(ranks), binary, "fluid", str(faces)], env=environment,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
     values = {}
     for text in done.stdout.splitlines():
         parts = text.split()
-        if len(parts) == 2 and parts[0] in ("geometry_ms", "geometry_best_ms", "full_ms", "full_best_ms", "wait_cpu_share"):
+        if len(parts) == 2 and parts[0] in ("geometry_ms", "geometry_best_ms", "full_ms", "full_best_ms", "wait_cpu_share", "late_ms"):
             values[parts[0]] = float(parts[1])
-    if done.returncode or len(values) != 5:
+    if done.returncode or len(values) != 6:
         raise RunFailed(f"bench_exchange: {done.stdout[-400:]}")
     return values
 
@@ -303,6 +303,11 @@ def exchange_20k_ms():
     return [row("exchange_20k_ms", values["geometry_ms"], "ms", 1, 2), row("exchange_20k_best_ms", values["geometry_best_ms"], "ms", 1, 2),
             row("exchange_20k_full_ms", values["full_ms"], "ms", 1, 2), row("exchange_20k_full_best_ms", values["full_best_ms"], "ms", 1, 2),
             row("wait_cpu_share", values["wait_cpu_share"], "of a core", 1, 2)]
+
+
+def exchange_after_nap_ms():
+    """20,000 faces, a fluid that sleeps for 0.4 s in each window: from its waking to all ranks of the solid; 1+1, 2+2"""
+    return [row("exchange_after_nap_ms", exchange(20000, ranks)["late_ms"], "ms", 1, 2 * ranks) for ranks in (1, 2)]
 
 
 def exchange_200k_ms():
@@ -328,5 +333,5 @@ def exchange_share_weapon():
 
 
 GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, three_64, quiescent_share, amr_overhead],
-          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_200k_ms, exchange_share_weapon], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
+          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_after_nap_ms, exchange_200k_ms, exchange_share_weapon], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
 STUDIES = {"solid": precision.MAKERS, "fluid": precision_flow.FLUID, "wall": precision_flow.WALL}  # of precision, by room
