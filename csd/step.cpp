@@ -44,7 +44,8 @@ void for_conditions(Model& m, std::initializer_list<Turn> turns, const Work& wor
 void on_force(Model& m, double dt) {
   for_conditions(m, {pulls, ties, holds, drags}, [&](auto& c) { c.on_force(m.state, dt); });
   if (m.physics.relaxation) m.physics.relaxation->on_force(m.state, dt);
-  if (m.physics.rigid && m.state.local.all_due()) m.physics.rigid->take_forces(m.state, dt * m.state.local.shortest());
+  if (m.physics.rigid && m.state.local.all_due())
+    m.physics.rigid->take_forces(m.physics.loads ? &*m.physics.loads : nullptr, m.state, dt * m.state.local.shortest());
 }
 void before_drift(Model& m, double dt) {
   for_conditions(m, {pulls, holds, drags, ties}, [&](auto& c) { c.before_drift(m.state, dt); });
@@ -55,7 +56,9 @@ void after_kick(Model& m, double dt) {
 /// Half a step's work of the loads, and the impulses that they keep books of, at the step's velocities.
 void book_half_work(Model& m, double dt) {
   if (!m.physics.loads) return;
-  m.physics.energy.external += 0.5 * dt * m.physics.loads->power(m.state);
+  double power = m.physics.loads->power(m.state);
+  if (m.physics.rigid) power += m.physics.rigid->load_power(m.state);
+  m.physics.energy.external += 0.5 * dt * power;
   m.physics.loads->book(m.mesh, m.state, 0.5 * dt);
 }
 

@@ -38,15 +38,19 @@ void Fracture::forget(NodeId n) {
   mean_step_[n] = 0;
 }
 
-double Fracture::nodal(const Topology& topology, std::span<const double> fail, NodeId n) {
-  if (mean_step_[n] == step_) return mean_[n];
+double Fracture::average(const Topology& topology, std::span<const double> fail, NodeId n) const {
   double sum = 0, weight = 0;
   for (const ElemId e : topology.elements(n)) {
     sum += weight_[e] * fail[size_t(e.value)];
     weight += weight_[e];
   }
+  return sum / weight;
+}
+
+double Fracture::nodal(const Topology& topology, std::span<const double> fail, NodeId n) {
+  if (mean_step_[n] == step_) return mean_[n];
   mean_step_[n] = step_;
-  return mean_[n] = sum / weight;
+  return mean_[n] = average(topology, fail, n);
 }
 
 double Fracture::selection(const Mesh& mesh, const Topology& topology, std::span<const double> fail, ElemId e) {
@@ -62,15 +66,11 @@ std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& 
     const auto& h = mesh.hex[e];
     return std::all_of(h.begin(), h.end(), [&](NodeId n) { return topology.elements(n).size() == 1; });
   };
-  std::vector<ElemId> broken;
+  std::vector<ElemId> seen;
   const auto look = [&](ElemId e) {
     if (seen_step_[e] == step_) return;
     seen_step_[e] = step_;
-    if (is_done_[e] || opened_by_[e] >= input_.faces_per_element || (holds && holds(e))) return;
-    if (shares_nothing(e))
-      is_done_[e] = 1;
-    else if (selection(mesh, topology, fail, e) >= 1)
-      broken.push_back(e);
+    if (!is_done_[e] && opened_by_[e] < input_.faces_per_element && !(holds && holds(e))) seen.push_back(e);
   };
   for (int32_t i = 0; i < mesh.elem_count(); ++i) {
     const ElemId near(i);
@@ -80,7 +80,32 @@ std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& 
     for (const NodeId n : mesh.hex[near])
       for (const ElemId e : topology.elements(n)) look(e);
   }
+  if (input_.is_smoothed) average_nodes(mesh, topology, fail, seen);
+  std::vector<char> is_broken(seen.size());
+  parallel_for(int64_t(seen.size()), [&](int64_t i) {
+    const ElemId e = seen[size_t(i)];
+    if (shares_nothing(e))
+      is_done_[e] = 1;
+    else
+      is_broken[size_t(i)] = selection(mesh, topology, fail, e) >= 1;
+  });
+  std::vector<ElemId> broken;
+  for (size_t i = 0; i < seen.size(); ++i)
+    if (is_broken[i]) broken.push_back(seen[i]);
   return broken;
+}
+
+/// Of the elements' nodes: selection() only reads them then.
+void Fracture::average_nodes(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                             std::span<const ElemId> elems) {
+  std::vector<NodeId> nodes;
+  for (const ElemId e : elems)
+    for (const NodeId n : mesh.hex[e])
+      if (mean_step_[n] != step_) mean_step_[n] = step_, nodes.push_back(n);
+  parallel_for(int64_t(nodes.size()), [&](int64_t i) {
+    const NodeId n = nodes[size_t(i)];
+    mean_[n] = average(topology, fail, n);
+  });
 }
 
 std::vector<ElemId> Fracture::broken(const Mesh& mesh, const Topology& topology, std::span<const double> fail,

@@ -95,6 +95,9 @@ class Fracture {
   }
 
  private:
+  double average(const Topology& topology, std::span<const double> fail, NodeId n) const;
+  void average_nodes(const Mesh& mesh, const Topology& topology, std::span<const double> fail,
+                     std::span<const ElemId> elems);
   double nodal(const Topology& topology, std::span<const double> fail, NodeId n);
   void forget(NodeId n);
   void begin_step(const Mesh& mesh);

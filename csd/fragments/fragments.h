@@ -99,10 +99,13 @@ class Fragments {
     int64_t id, parent;
     double birth;
   };
+  std::vector<ElemId> cut_elements(const Mesh& mesh);
+
   Field<double, ElemId> volume_;  // reference
   Field<int32_t, ElemId> label_;
   std::vector<Known> known_;
   int64_t next_id_ = 0;
+  int32_t nodes_ = 0;  // of the mesh at the last look; too few only cost time
 };
 
 /// For each element the lowest element that it hangs together with by shared nodes.

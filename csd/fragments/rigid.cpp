@@ -13,17 +13,6 @@
 #include "csd/model.h"
 
 namespace bw::csd {
-namespace {
-
-/// change(values) with the histories of the block of a slot, those of the slot `lanes` apart; kept.
-template <class Change>
-void change_history(const Elements& el, State& s, SlotId slot, const Change& change) {
-  const int body = el.body_of(slot);
-  s.history[size_t(body)].change(el.blocks.row_of(body, slot / lanes),
-                                 [&](double* values) { change(values + slot % lanes); });
-}
-
-}  // namespace
 
 Rigid::Rigid(const RigidInput& input, const std::vector<std::string>& body_names, const Mesh& mesh)
     : input_(input),
@@ -66,7 +55,7 @@ void Rigid::complete(State& s) {
     if (body.is_stopped()) return;
     body.place_nodes(s.x);
     body.move_nodes(s.v);
-    body.share_forces(s.m, s.f, RigidBody::Which::all);
+    body.share_forces(s.m, s.f);
   });
 }
 
@@ -76,28 +65,22 @@ void Rigid::follow_all(Model& m) {
   go_on(m);
 }
 
-/// Bodies that forces may act on.
 template <class Work>
-void Rigid::for_pushed(const Work& work) {
-  parallel_for(int64_t(pushed_.size()), [&](int64_t i) { work(bodies_[size_t(pushed_[size_t(i)])]); });
+void Rigid::for_bodies(const Work& work) {
+  parallel_for(int64_t(bodies_.size()), [&](int64_t i) { work(bodies_[size_t(i)]); });
 }
 
 void Rigid::begin_kick(State& s, double h) {
-  for_pushed([&](RigidBody& body) {
+  if (!asks_all_) return followers_.kick(bodies_, h);
+  for_bodies([&](RigidBody& body) {
     if (body.is_stopped()) return;
     body.kick(h);
-    body.move_nodes(s.v, RigidBody::Which::asked);
+    body.move_nodes(s.v);
   });
 }
 
-/// Loads don't ask for velocities before the next one begins.
-void Rigid::end_kick(State& s, double h) {
-  for_pushed([&](RigidBody& body) {
-    if (body.is_stopped()) return;
-    body.kick(h);
-    if (asks_all_) body.move_nodes(s.v);
-  });
-}
+/// Of followers nothing asks for velocities.
+void Rigid::end_kick(State& s, double h) { begin_kick(s, h); }
 
 void Rigid::meet_walls(std::vector<ConditionKind>& conditions, State& s, double dt) {
   std::vector<RigidWall*> walls;
@@ -133,37 +116,52 @@ void Rigid::meet_walls(std::vector<ConditionKind>& conditions, State& s, double 
 }
 
 void Rigid::drift(State& s, double dt) {
-  parallel_for(int64_t(bodies_.size()), [&](int64_t i) {
-    RigidBody& body = bodies_[size_t(i)];
+  for_bodies([&](RigidBody& body) {
     if (body.is_stopped()) return;
-    body.drift(dt);
-    body.place_nodes(s.x, RigidBody::Which::asked);
-    body.move_nodes(s.v, RigidBody::Which::asked);
+    const bool turns = body.drift(dt);
+    if (!asks_all_) return;
+    body.place_nodes(s.x);
+    if (turns) body.move_nodes(s.v);
   });
+  if (!asks_all_) followers_.place(bodies_, s.x);
   is_current_ = false;
 }
 
 void Rigid::after_elements(const Elements& el, State& s) {
-  if (s.local.all_due())
-    for_pushed([&](const RigidBody& body) {
-      body.for_places(RigidBody::Which::asked, [&](size_t i) { s.f[body.nodes()[i]] = {}; });
-    });
-  for (const Kept& kept : kept_) {
-    if (!s.local.is_block_due(kept.slot / lanes)) continue;
-    change_history(el, s, kept.slot, [&](double* history) {
-      for (size_t i = 0; i < kept.values.size(); ++i) history[i * lanes] = kept.values[i];
-    });
+  if (s.local.all_due()) {
+    if (asks_all_)
+      for_bodies([&](const RigidBody& body) {
+        for (const NodeId n : body.nodes()) s.f[n] = {};
+      });
+    else
+      followers_.clear(s.f);
   }
+  parallel_for(
+      int64_t(kept_.size()),
+      [&](int64_t k) {
+        const Kept& kept = kept_[size_t(k)];
+        if (!s.local.is_block_due(kept.block)) return;
+        const int body = el.body_of(SlotId(kept.block * lanes));
+        s.history[size_t(body)].change(el.blocks.row_of(body, kept.block), [&](double* history) {
+          const double* value = kept.values.data();
+          for (; value != kept.values.data() + kept.values.size(); history += lanes)
+            for (const int l : kept.in_lanes) history[l] = *value++;
+        });
+      },
+      64);
 }
 
-void Rigid::take_forces(State& s, double dt) {
+void Rigid::take_forces(const Loads* loads, State& s, double dt) {
+  if (!asks_all_) return followers_.take_forces(bodies_, loads);
   drag_work_ += parallel_sum(int64_t(air_.size()), [&](int64_t b) { return add_drag(size_t(b), s, dt); });
-  for_pushed([&](RigidBody& body) {
-    body.take_forces(s.f, RigidBody::Which::asked);
-    if (asks_all_ || body.is_stopped()) body.share_forces(s.m, s.f, RigidBody::Which::asked);
+  for_bodies([&](RigidBody& body) {
+    body.take_forces(s.f);
+    body.share_forces(s.m, s.f);
   });
-  if (any_new_) std::erase_if(pushed_, [&](int32_t b) { return !bodies_[size_t(b)].is_asked(); });
-  any_new_ = false;
+}
+
+double Rigid::load_power(const State& s) const {
+  return asks_all_ || !s.local.all_due() ? 0 : s.local.shortest() * followers_.power(bodies_);
 }
 
 double Rigid::add_drag(size_t b, State& s, double dt) {
@@ -196,79 +194,87 @@ double Rigid::accurate_step() const {
   return step;
 }
 
-/// Which elements are rigid, for the loops over elements; and what they must not change.
-void Rigid::renew_marks(Model& m) {
+/// Which elements are rigid, for the loops over elements, and what they must not change; bodies before `first` are
+/// marked already. A body stays marked until all are marked anew.
+void Rigid::renew_marks(Model& m, size_t first) {
   Elements& el = m.physics.elements;
   State& s = m.state;
-  s.rigid = Field<double, SlotId>(size_t(el.blocks.slot_count()));
-  is_rigid_.assign(size_t(m.mesh.node_count()), 0), body_at_.assign(is_rigid_.size(), -1);
-  for (size_t b = 0; b < bodies_.size(); ++b)
-    for (const NodeId n : bodies_[b].nodes()) body_at_[size_t(n)] = int32_t(b);
-  elements_ = 0;
-  for (const auto& elems : elems_) {
-    elements_ += int64_t(elems.size());
-    for (const ElemId e : elems) {
-      s.rigid[el.blocks.slot[e]] = 1;
-      for (const NodeId n : m.mesh.hex[e]) is_rigid_[size_t(n)] = 1;
-    }
+  if (first == 0) {
+    s.rigid = Field<double, SlotId>(size_t(el.blocks.slot_count()));
+    is_rigid_.clear(), body_at_.clear();
+    kept_.clear(), elements_ = 0;
   }
-  kept_.clear();
-  for (int block = 0; block < el.blocks.block_count(); ++block) {
-    const SlotId first(block * lanes);
-    const int used = el.blocks.used[size_t(block)];
-    int count = 0;
-    for (int l = 0; l < lanes; ++l) {
-      s.rigid[SlotId(first + l)] = s.rigid[el.blocks.slot[el.blocks.elem[SlotId(first + l)]]];
-      if (l < used) count += s.rigid[SlotId(first + l)] > 0;
-    }
-    m.physics.resting.set_rigid(block, count == used, el.blocks.block_count());
-    if (count == 0 || count == used || !el.blocks.is_own(block)) continue;
-    const PointHistory& histories = s.history[size_t(el.body_of(first))];
-    Aligned<double> buffer(histories.block_size());
-    const double* history = histories.read(el.blocks.row_of(el.body_of(first), block), buffer.data());
-    for (int l = 0; l < used; ++l) {
-      const SlotId slot(first + l);
-      if (s.rigid[slot] == 0) continue;
-      Kept kept{slot, std::vector<double>(buffer.size() / lanes)};
-      for (size_t i = 0; i < kept.values.size(); ++i) kept.values[i] = history[i * lanes + size_t(l)];
-      kept_.push_back(std::move(kept));
-    }
+  is_rigid_.resize(size_t(m.mesh.node_count()), 0), body_at_.resize(is_rigid_.size(), -1);
+  std::vector<char> is_changed(size_t(el.blocks.block_count()), first == 0);
+  for (size_t b = first; b < bodies_.size(); ++b) {
+    for (const NodeId n : bodies_[b].nodes()) body_at_[size_t(n)] = int32_t(b), is_rigid_[size_t(n)] = 1;
+    elements_ += int64_t(elems_[b].size());
+    for (const ElemId e : elems_[b]) s.rigid[el.blocks.slot[e]] = 1, is_changed[size_t(el.blocks.slot[e] / lanes)] = 1;
+    s.local.set_level(bodies_[b].nodes(), s.local.top());
   }
-  for (const RigidBody& body : bodies_) s.local.set_level(body.nodes(), s.local.top());
+  std::erase_if(kept_, [&](const Kept& kept) { return is_changed[size_t(kept.block)]; });
+  for (int block = 0; block < el.blocks.block_count(); ++block)
+    if (is_changed[size_t(block)]) renew_block(m, block);
   s.local.list_due();
   if (el.ranks) el.ranks->follow_also(is_rigid_, s);
   for (auto& condition : m.physics.conditions)
     if (auto* wall = std::get_if<RigidWall>(&condition)) wall->leave(is_rigid_);
-  renew_asked(m);
+  renew_asked(m, first);
 }
 
-/// Which nodes follow their bodies in each step, and on one rank which the loops over nodes go over.
-void Rigid::renew_asked(Model& m) {
-  const Physics& ph = m.physics;
+/// Marks the lanes of a block, and keeps what elements of rigid bodies remember if others make it work.
+void Rigid::renew_block(Model& m, int block) {
+  const Elements& el = m.physics.elements;
   State& s = m.state;
+  const SlotId first(block * lanes);
+  const int used = el.blocks.used[size_t(block)];
+  int count = 0;
+  for (int l = 0; l < lanes; ++l) {
+    s.rigid[SlotId(first + l)] = s.rigid[el.blocks.slot[el.blocks.elem[SlotId(first + l)]]];
+    if (l < used) count += s.rigid[SlotId(first + l)] > 0;
+  }
+  m.physics.resting.set_rigid(block, count == used, el.blocks.block_count());
+  if (count == 0 || count == used || !el.blocks.is_own(block)) return;
+  const PointHistory& histories = s.history[size_t(el.body_of(first))];
+  Aligned<double> buffer(histories.block_size());
+  const double* history = histories.read(el.blocks.row_of(el.body_of(first), block), buffer.data());
+  Kept kept{block, {}, {}};
+  for (int l = 0; l < used; ++l)
+    if (s.rigid[SlotId(first + l)] > 0) kept.in_lanes.push_back(l);
+  for (size_t i = 0; i < buffer.size(); i += lanes)
+    for (const int l : kept.in_lanes) kept.values.push_back(history[i + size_t(l)]);
+  kept_.push_back(std::move(kept));
+}
+
+/// Which nodes follow their bodies in each step, and on one rank which nodes the loops over nodes pass over.
+void Rigid::renew_asked(Model& m, size_t first) {
+  Physics& ph = m.physics;
+  State& s = m.state;
+  asks_all_ = follows_all_ || input_.drag || !ph.conditions.empty() || ph.relaxation || ph.mass_scaling || ph.contact;
+  if (ph.loads) ph.loads->leave(asks_all_ ? std::vector<char>{} : is_rigid_);
+  std::vector<NodeId> beside;
+  std::vector<char> is_beside(is_rigid_.size(), 0);
   const Blocks& blocks = ph.elements.blocks;
-  asks_all_ = follows_all_ || input_.drag || !ph.conditions.empty() || ph.relaxation || ph.mass_scaling || ph.contact ||
-              ph.elements.ranks;
-  std::vector<char> is_asked(is_rigid_.size(), asks_all_);
-  std::vector<char> is_free(is_rigid_.size());
-  parallel_for(int64_t(is_free.size()), [&](int64_t n) { is_free[size_t(n)] = !is_rigid_[size_t(n)]; });
-  for (int block = 0; block < blocks.block_count(); ++block)
-    if (!ph.resting.any() || ph.resting.state[size_t(block)] != Resting::rigid)
-      for (int i = 0; i < 8 * lanes; ++i) {
-        const size_t n = size_t(blocks.nodes_of(block)[i]);
-        is_asked[n] = is_free[n] = 1;
-      }
-  if (ph.loads)
-    for (const NodeId n : ph.loads->nodes()) is_asked[size_t(n)] = 1;
-  parallel_for(int64_t(bodies_.size()), [&](int64_t i) { bodies_[size_t(i)].ask(is_asked); });
-  pushed_.resize(bodies_.size());
-  std::iota(pushed_.begin(), pushed_.end(), 0);
-  any_new_ = true;
+  for (int block = 0; block < blocks.block_count(); ++block) {
+    if (ph.resting.any() && ph.resting.state[size_t(block)] == Resting::rigid) continue;
+    for (int l = 0; l < blocks.used[size_t(block)]; ++l)
+      if (s.rigid[SlotId(block * lanes + l)] > 0)
+        for (int a = 0; a < 8; ++a) {
+          const NodeId n(blocks.nodes_of(block)[a * lanes + l]);
+          if (!is_beside[size_t(n)]) is_beside[size_t(n)] = 1, beside.push_back(n);
+        }
+  }
+  if (!asks_all_) {
+    followers_.append(bodies_, first, ph.loads ? &*ph.loads : nullptr);
+    followers_.set_beside(bodies_, beside, body_at_);
+  }
   if (ph.elements.ranks) return;
-  s.followed.clear();
-  if (bodies_.empty()) return;
-  for (size_t n = 0; n < is_free.size(); ++n)
-    if (is_free[n]) s.followed.push_back(int32_t(n));
+  if (bodies_.empty()) return s.followed.clear();
+  if (first == 0 || s.followed.empty()) {
+    s.followed.resize(is_rigid_.size());
+    std::iota(s.followed.begin(), s.followed.end(), 0);
+  }
+  std::erase_if(s.followed, [&](int32_t n) { return is_rigid_[size_t(n)] && !is_beside[size_t(n)]; });
 }
 
 }  // namespace bw::csd

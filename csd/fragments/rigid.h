@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragments that move as rigid bodies: in the step (csd/step.cpp), and who becomes one. A fragment is a component by
-// shared nodes, so a node is of one rigid body or of none. On several ranks every rank follows the nodes of all of
-// them and moves them all alike. On one rank a body's nodes follow it in each step only where loads, conditions or
-// elements beside it ask for them; the others when all are asked for (complete).
+// shared nodes, so a node is of one rigid body or of none. On several ranks every rank moves all of them alike. A
+// body's nodes follow it in each step where conditions, contact or another program may look at them, else only where
+// loads or elements beside it do (Followers); the others when all are asked for (complete).
 #pragma once
 #include <optional>
 #include <string>
@@ -10,6 +10,7 @@
 
 #include "common/math/units.h"
 #include "csd/fragments/air_drag.h"
+#include "csd/fragments/followers.h"
 #include "csd/fragments/fragments.h"
 #include "csd/fragments/rigid_body.h"
 #include "csd/load/conditions/list.h"
@@ -94,10 +95,12 @@ class Rigid {
   void drift(State& s, double dt);  ///< after the nodes' own: places, and velocities as they have turned
   void after_elements(const Elements& el, State& s);  ///< nodes bear no internal force, flow is undone
   /// Once all loads and conditions have added theirs; dt: the step that ends, 0: they are summed up anew.
-  void take_forces(State& s, double dt);
+  void take_forces(const Loads* loads, State& s, double dt);
   void end_kick(State& s, double h);  ///< after the nodes' own
   /// Nodes lose what drag has added: their forces change within the step.
   void give_back(State& s);
+  /// W, of the loads' forces that Loads leaves to bodies, at the bodies' velocities; as Loads::power.
+  double load_power(const State& s) const;
   double drag_work() const { return drag_work_; }  ///< J, since the start
   /// Bound of the step [s] where no element gives one: the fastest turns by 0.05, or flies a tenth of its radius.
   double accurate_step() const;
@@ -149,22 +152,24 @@ class Rigid {
     double area = 0;  // m^2, 0: it is too large
     Vec3 R;           // N
   };
-  struct Kept {  // history of a rigid element in a block that has others
-    SlotId slot;
-    std::vector<double> values;
+  struct Kept {  // histories of the rigid elements of a block that has others
+    int block;
+    std::vector<int> in_lanes;
+    std::vector<double> values;  // [components][lane]
   };
   std::vector<Piece> candidates(Model& m);
   std::vector<Piece> beyond_box(Model& m);
   void retire(Model& m);
   void keep_calm(Model& m, std::vector<Piece>& pieces);
   template <class Work>
-  void for_pushed(const Work& work);
-  void renew_asked(Model& m);
+  void for_bodies(const Work& work);
+  void renew_asked(Model& m, size_t first);
   void freeze(Model& m, const std::vector<Piece>& pieces);
   Air air_of(const Model& m, const Piece& piece, const RigidBody& body) const;
   double add_drag(size_t b, State& s, double dt);  ///< J, its work in this half step
   void release(Model& m);
-  void renew_marks(Model& m);
+  void renew_marks(Model& m, size_t first = 0);
+  void renew_block(Model& m, int block);
   std::vector<Piece> pieces_of(Model& m, const std::vector<char>& is_label_wanted);
   std::vector<Piece> switched_pieces(Model& m);
 
@@ -179,9 +184,8 @@ class Rigid {
   std::vector<Air> air_;                    // [body] where there is drag
   double drag_work_ = 0;
   bool follows_all_ = false, asks_all_ = false;
-  bool is_current_ = true;        // nodes that aren't asked for are where their bodies are
-  std::vector<int32_t> pushed_;   // places in bodies_ of those with nodes that are asked for, or new
-  bool any_new_ = false;          // some are pushed by the forces that they began with alone
+  bool is_current_ = true;        // nodes that don't follow are where their bodies are
+  Followers followers_;           // unless all are asked for
   std::vector<char> is_rigid_;    // [node]
   std::vector<int32_t> body_at_;  // [node]
   std::vector<Kept> kept_;

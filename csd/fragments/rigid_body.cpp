@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace bw::csd {
 
@@ -28,8 +27,7 @@ void turn(const Mat3& inverse_inertia, double h, Attitude& q, Vec3& P) {
 
 RigidBody::RigidBody(std::vector<NodeId> nodes, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& v,
                      const Field<double, NodeId>& m, Motion motion)
-    : motion_(motion) {
-  set_nodes(std::move(nodes));
+    : motion_(motion), nodes_(std::move(nodes)) {
   const Vec3 origin = x[nodes_.front()];  // far from (0, 0, 0) digits would be lost
   for (NodeId n : nodes_) mass_ += m[n], x_ += m[n] * (x[n] - origin), v_ += m[n] * v[n];
   x_ = origin + x_ / mass_, v_ = v_ / mass_;
@@ -45,18 +43,6 @@ RigidBody::RigidBody(std::vector<NodeId> nodes, const Field<Vec3, NodeId>& x, co
   }
   if (motion_ == Motion::six_dof) inverse_inertia_ = inverse(inertia);
   renew_spin();
-}
-
-void RigidBody::set_nodes(std::vector<NodeId> nodes) {
-  nodes_ = std::move(nodes);
-  asked_.resize(nodes_.size());
-  std::iota(asked_.begin(), asked_.end(), 0);
-}
-
-void RigidBody::ask(const std::vector<char>& is_asked) {
-  asked_.clear();
-  for (size_t i = 0; i < nodes_.size(); ++i)
-    if (is_asked[size_t(nodes_[i])]) asked_.push_back(int32_t(i));
 }
 
 void RigidBody::renew_spin() { omega_ = turned_ * (inverse_inertia_ * (transpose(turned_) * L_)); }
@@ -80,19 +66,20 @@ void RigidBody::push(const Vec3& arm, const Vec3& impulse) {
   if (motion_ == Motion::six_dof) L_ += cross(arm, impulse), renew_spin();
 }
 
-void RigidBody::take_forces(const Field<Vec3, NodeId>& f, Which which) {
+void RigidBody::take(const Push& push) {
   F_ = T_ = {};
-  if (is_stopped_) return;
-  for_places(which, [&](size_t i) {
-    const Vec3& force = f[nodes_[i]];
-    F_ += force;
-    if (motion_ == Motion::six_dof) T_ += cross(arm(i), force);
-  });
+  if (!is_stopped_) F_ = push.F, T_ = push.T;
 }
 
-void RigidBody::share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f, Which which) const {
+void RigidBody::take_forces(const Field<Vec3, NodeId>& f) {
+  Push push;
+  for (size_t i = 0; i < nodes_.size(); ++i) add(arm_[i], f[nodes_[i]], push);
+  take(push);
+}
+
+void RigidBody::share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f) const {
   const Vec3 acceleration = F_ / mass_, turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
-  for_places(which, [&](size_t i) {
+  for (size_t i = 0; i < nodes_.size(); ++i) {
     const NodeId n = nodes_[i];
     if (is_stopped_)
       f[n] = {};
@@ -100,19 +87,19 @@ void RigidBody::share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>
       f[n] = m[n] * acceleration;
     else
       f[n] = m[n] * (acceleration + cross(turning, arm(i)));
-  });
+  }
 }
 
 void RigidBody::kick(double h) {
   v_ += (h / mass_) * F_;
-  if (T_ == Vec3{}) return;
+  if (motion_ == Motion::translation || T_ == Vec3{}) return;
   L_ += h * T_;
   renew_spin();
 }
 
-void RigidBody::drift(double dt) {
+bool RigidBody::drift(double dt) {
   x_ += dt * v_;
-  if (L_ == Vec3{}) return;
+  if (motion_ == Motion::translation || L_ == Vec3{}) return false;
   static const double p = 1 / (4 - std::cbrt(4.0));  // [Suzuki 1990]
   Vec3 P = transpose(turned_) * L_;
   for (const double part : {p, p, 1 - 4 * p, p, p}) turn(inverse_inertia_, part * dt, q_, P);
@@ -120,19 +107,14 @@ void RigidBody::drift(double dt) {
   q_ = {q_.w / size, q_.u / size};
   turned_ = q_.matrix();
   renew_spin();
+  return true;
 }
 
-void RigidBody::place_nodes(Field<Vec3, NodeId>& x, Which which) const {
-  if (motion_ == Motion::translation)
-    for_places(which, [&](size_t i) { x[nodes_[i]] = x_ + arm_[i]; });
-  else
-    for_places(which, [&](size_t i) { x[nodes_[i]] = x_ + arm(i); });
+void RigidBody::place_nodes(Field<Vec3, NodeId>& x) const {
+  for (size_t i = 0; i < nodes_.size(); ++i) x[nodes_[i]] = place_of(arm_[i]);
 }
-void RigidBody::move_nodes(Field<Vec3, NodeId>& v, Which which) const {
-  if (motion_ == Motion::translation)
-    for_places(which, [&](size_t i) { v[nodes_[i]] = v_; });
-  else
-    for_places(which, [&](size_t i) { v[nodes_[i]] = velocity_at(arm(i)); });
+void RigidBody::move_nodes(Field<Vec3, NodeId>& v) const {
+  for (size_t i = 0; i < nodes_.size(); ++i) v[nodes_[i]] = motion_ == Motion::translation ? v_ : velocity_at(arm(i));
 }
 
 }  // namespace bw::csd

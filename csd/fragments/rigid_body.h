@@ -13,7 +13,7 @@
 
 namespace bw::csd {
 
-class RigidBody {
+class alignas(64) RigidBody {
  public:
   enum class Motion { six_dof, translation };
 
@@ -22,25 +22,14 @@ class RigidBody {
             const Field<double, NodeId>& m, Motion motion);
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
-  /// Nodes that forces may act on, or whose motion is asked for, within a step [node]; at first all.
-  void ask(const std::vector<char>& is_asked);
-  bool is_asked() const { return !asked_.empty(); }
-  enum class Which { all, asked };
-  /// work(place in nodes())
-  template <class Work>
-  void for_places(Which which, const Work& work) const {
-    if (which == Which::asked)
-      for (const int32_t i : asked_) work(size_t(i));
-    else
-      for (size_t i = 0; i < nodes_.size(); ++i) work(i);
-  }
-  double mass() const { return mass_; }                   ///< kg
-  double radius() const { return radius_; }               ///< m, of the farthest node
-  const Vec3& centre() const { return x_; }               ///< m
-  const Vec3& velocity() const { return v_; }             ///< m/s, of the centre
-  const Vec3& angular_momentum() const { return L_; }     ///< kg m^2/s, about the centre
-  const Vec3& spin() const { return omega_; }             ///< 1/s, in space
-  Vec3 arm(size_t i) const { return turned_ * arm_[i]; }  ///< m, of a node, in space
+  double mass() const { return mass_; }                    ///< kg
+  double radius() const { return radius_; }                ///< m, of the farthest node
+  const Vec3& centre() const { return x_; }                ///< m
+  const Vec3& velocity() const { return v_; }              ///< m/s, of the centre
+  const Vec3& angular_momentum() const { return L_; }      ///< kg m^2/s, about the centre
+  const Vec3& spin() const { return omega_; }              ///< 1/s, in space
+  Vec3 arm(size_t i) const { return turned_ * arm_[i]; }   ///< m, of a node, in space
+  const Vec3& own_arm(size_t i) const { return arm_[i]; }  ///< m, in the body's frame
   Vec3 velocity_at(const Vec3& arm) const { return v_ + cross(omega_, arm); }
   double kinetic_energy() const { return 0.5 * mass_ * dot(v_, v_) + 0.5 * dot(omega_, L_); }  ///< J
   Vec3 acceleration_at(const Vec3& arm) const;  ///< m/s^2, by the forces that were taken
@@ -52,16 +41,28 @@ class RigidBody {
   bool is_stopped() const { return is_stopped_; }
   /// Impulse [N s] at an arm in space.
   void push(const Vec3& arm, const Vec3& impulse);
-  /// Sums of forces [N]; nodes that are left out bear none.
-  void take_forces(const Field<Vec3, NodeId>& f, Which which);
+  /// Sums of forces [N] and of their moments about the centre [N m].
+  struct Push {
+    Vec3 F, T;
+  };
+  /// Adds a force at an arm in the body's frame.
+  void add(const Vec3& own_arm, const Vec3& force, Push& push) const {
+    push.F += force;
+    if (motion_ == Motion::six_dof) push.T += cross(turned_ * own_arm, force);
+  }
+  void take(const Push& push);
+  void take_forces(const Field<Vec3, NodeId>& f);
   /// Nodes' forces as the body's acceleration makes them of their masses: same sum, same moment.
-  void share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f, Which which) const;
+  void share_forces(const Field<double, NodeId>& m, Field<Vec3, NodeId>& f) const;
   /// h times the forces that were taken.
   void kick(double h);
-  /// Free motion over dt.
-  void drift(double dt);
-  void place_nodes(Field<Vec3, NodeId>& x, Which which = Which::all) const;
-  void move_nodes(Field<Vec3, NodeId>& v, Which which = Which::all) const;
+  /// Free motion over dt. Returns whether it turns: else all its nodes keep their velocities.
+  bool drift(double dt);
+  Vec3 place_of(const Vec3& own_arm) const {  ///< m
+    return motion_ == Motion::translation ? x_ + own_arm : x_ + turned_ * own_arm;
+  }
+  void place_nodes(Field<Vec3, NodeId>& x) const;
+  void move_nodes(Field<Vec3, NodeId>& v) const;
 
   /// All bodies of a run in a checkpoint, array by array.
   template <class A>
@@ -71,7 +72,7 @@ class RigidBody {
     for (const RigidBody& body : bodies) nodes.push_back(body.nodes_), arms.push_back(body.arm_);
     a.lists("nodes", nodes), a.lists("arms", arms);
     bodies.resize(nodes.size(), RigidBody());
-    for (size_t b = 0; b < bodies.size(); ++b) bodies[b].set_nodes(nodes[b]), bodies[b].arm_ = arms[b];
+    for (size_t b = 0; b < bodies.size(); ++b) bodies[b].nodes_ = nodes[b], bodies[b].arm_ = arms[b];
     const auto each = [&]<class T>(const char* name, T RigidBody::*number) {
       std::vector<std::conditional_t<std::is_same_v<T, bool>, char, T>> all;
       for (const RigidBody& body : bodies) all.push_back(body.*number);
@@ -89,20 +90,21 @@ class RigidBody {
 
  private:
   RigidBody() = default;
-  void set_nodes(std::vector<NodeId> nodes);
   void renew_spin();
 
-  std::vector<NodeId> nodes_;
-  std::vector<Vec3> arm_;       // m, in the body's frame
-  std::vector<int32_t> asked_;  // places in nodes_
+  // what a step reads of a body comes first: one line of the cache to fly, two to be pushed
+  Vec3 x_, v_;
+  double mass_ = 0;
   Motion motion_ = Motion::six_dof;
   bool is_stopped_ = false;
-  double mass_ = 0, radius_ = 0;
+  Vec3 F_, L_;  // N, kg m^2/s
+  double radius_ = 0;
+  Vec3 T_, omega_;  // N m, 1/s
+  Mat3 turned_ = Mat3::identity();
   Mat3 inverse_inertia_{};  // of the nodes' masses about the centre, body's frame; zero for translation
   Attitude q_;
-  Mat3 turned_ = Mat3::identity();
-  Vec3 x_, v_, L_, omega_;
-  Vec3 F_, T_;  // N, N m
+  std::vector<NodeId> nodes_;
+  std::vector<Vec3> arm_;  // m, in the body's frame
 };
 
 }  // namespace bw::csd

@@ -135,7 +135,7 @@ void Rigid::keep_calm(Model& m, std::vector<Piece>& pieces) {
 
 void Rigid::freeze(Model& m, const std::vector<Piece>& pieces) {
   State& s = m.state;
-  csd::complete(m);
+  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(s);
   for (const Piece& piece : pieces) {
     RigidBody body(nodes_of(m.mesh, piece.elems), s.x, s.v, s.m, motion_);
     const Kinetic before = kinetic(s, body.nodes());
@@ -143,8 +143,8 @@ void Rigid::freeze(Model& m, const std::vector<Piece>& pieces) {
     bodies_.push_back(std::move(body));
     elems_.push_back(piece.elems);
     if (input_.drag) air_.push_back(air_of(m, piece, bodies_.back())), add_drag(bodies_.size() - 1, s, 0);
-    bodies_.back().take_forces(s.f, RigidBody::Which::all);
-    bodies_.back().share_forces(s.m, s.f, RigidBody::Which::all);
+    bodies_.back().take_forces(s.f);
+    bodies_.back().share_forces(s.m, s.f);
     book(m.physics.energy, before, kinetic(s, bodies_.back().nodes()));
   }
 }
@@ -217,8 +217,9 @@ void Rigid::renew(Model& m) {
   std::vector<Piece> pieces = candidates(m);
   keep_calm(m, pieces);
   if (!pieces.empty()) {
+    const size_t before = bodies_.size();
     freeze(m, pieces);
-    renew_marks(m);
+    renew_marks(m, before);
   }
   if (input_.box && m.state.step % input_.every == 0) retire(m);
 }

@@ -59,7 +59,7 @@ struct Blast {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    set_.for_each([&](size_t i) {
+    set_.for_each(mesh, x, f, [&](size_t i) {
       if (t - start_time < wave_[i].arrival || t - start_time >= wave_[i].arrival + wave_[i].duration) return;
       const auto n = mesh.nodes_of(set_[i]);
       const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};

@@ -30,4 +30,10 @@ LoadedFaces::LoadedFaces(const Mesh& mesh, std::vector<Face> faces) : faces_(std
   }
 }
 
+void LoadedFaces::fetch(const Mesh& mesh, Group group, const Field<Vec3, NodeId>& x,
+                        const Field<Vec3, NodeId>& f) const {
+  for (size_t i = group.first; i < group.second; ++i)
+    for (const NodeId n : mesh.nodes_of(faces_[i])) __builtin_prefetch(&x[n]), __builtin_prefetch(&f[n], 1);
+}
+
 }  // namespace bw::csd

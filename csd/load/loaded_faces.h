@@ -21,18 +21,23 @@ class LoadedFaces {
   Face operator[](size_t i) const { return faces_[i]; }
   auto begin() const { return faces_.begin(); }
   auto end() const { return faces_.end(); }
-  /// work(i) for every face, which may add to its nodes. In parallel.
+  /// work(i) for every face, which may add to its nodes. In parallel. What it reads and writes at its nodes is asked
+  /// for in good time: after cracks a face's nodes lie far apart.
   template <class Work>
-  void for_each(const Work& work) const {
+  void for_each(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& f, const Work& work) const {
     for (const auto& groups : colours_)
       parallel_for_dynamic(int64_t(groups.size()), [&](int64_t g) {
+        fetch(mesh, groups[size_t(g)], x, f);
         for (size_t i = groups[size_t(g)].first; i < groups[size_t(g)].second; ++i) work(i);
       });
   }
 
  private:
+  using Group = std::pair<size_t, size_t>;  // from one face to before another
+  void fetch(const Mesh& mesh, Group group, const Field<Vec3, NodeId>& x, const Field<Vec3, NodeId>& f) const;
+
   std::vector<Face> faces_;
-  std::vector<std::vector<std::pair<size_t, size_t>>> colours_;  // groups, from one face to before another
+  std::vector<std::vector<Group>> colours_;
 };
 
 }  // namespace bw::csd

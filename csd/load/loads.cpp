@@ -40,6 +40,13 @@ void Loads::follow(const std::vector<NodeId>& nodes) {
   for (const NodeId n : nodes)
     if (!is_loaded_[n]) is_loaded_[n] = 1, nodes_.push_back(n);
   if (nodes_.size() > before) std::sort(nodes_.begin(), nodes_.end());
+  acting_ = nodes_;
+}
+
+void Loads::leave(const std::vector<char>& is_left) {
+  acting_.clear();
+  for (const NodeId n : nodes_)
+    if (size_t(n) >= is_left.size() || !is_left[size_t(n)]) acting_.push_back(n);
 }
 
 void Loads::add(const Mesh& mesh, double t, State& s, int64_t alone) {
@@ -52,14 +59,16 @@ void Loads::add(const Mesh& mesh, double t, State& s, int64_t alone) {
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
   if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
   if (radiation) radiation->add(mesh, s, f_, alone);
-  for_loaded([&](NodeId n) {
+  const auto give = [&](int64_t i) {
+    const NodeId n = acting_[size_t(i)];
     if (s.local.is_due(n)) s.f[n] += f_[n];
-  });
+  };
+  parallel_for(int64_t(acting_.size()), give, alone);
 }
 
 double Loads::power(const State& s) const {
-  return parallel_sum(int64_t(nodes_.size()), [&](int64_t i) {
-    const NodeId n = nodes_[size_t(i)];
+  return parallel_sum(int64_t(acting_.size()), [&](int64_t i) {
+    const NodeId n = acting_[size_t(i)];
     return s.local.is_due(n) ? s.local.steps_of(n) * dot(f_[n], s.v[n]) : 0.0;
   });
 }
@@ -91,7 +100,7 @@ void Loads::replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> f
 void Loads::append_copies(std::span<const NodeSplit> splits) {
   for (const NodeSplit& split : splits) {
     f_.push_back(f_[split.parent]), is_loaded_.push_back(is_loaded_[split.parent]);
-    if (is_loaded_[split.child]) nodes_.push_back(split.child);
+    if (is_loaded_[split.child]) nodes_.push_back(split.child), acting_.push_back(split.child);
   }
   is_spread_ = is_spread_ && given_f_.size() == 0;
 }

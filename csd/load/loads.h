@@ -40,13 +40,17 @@ class Loads {
   /// Nodal forces of the last add() [N].
   Field<Vec3, NodeId>& forces() { return f_; }
   const Field<Vec3, NodeId>& forces() const { return f_; }
-  /// Those that may bear a load.
-  const std::vector<NodeId>& nodes() const { return nodes_; }
+  /// It may bear a load.
+  bool is_loaded(NodeId n) const { return is_loaded_[n]; }
+  /// Nodes marked [node] get no forces and count in no power from now on; somebody else sees to theirs. Later nodes are
+  /// not marked.
+  void leave(const std::vector<char>& is_left);
 
   /// In a checkpoint.
   template <class A>
   void keep(A& a) {
     a.list("force", f_), a.list("nodes", nodes_), a.list("loaded", is_loaded_);
+    if (a.restores()) acting_ = nodes_;
     if (radiation) radiation->keep(a);
   }
 
@@ -59,6 +63,7 @@ class Loads {
   bool is_spread_ = true;          // given_f_ is up to date
   Field<Vec3, NodeId> f_;          // N
   std::vector<NodeId> nodes_;      // ascending
+  std::vector<NodeId> acting_;     // those of them that are not left
   Field<char, NodeId> is_loaded_;  // in nodes_
 };
 

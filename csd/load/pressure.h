@@ -29,7 +29,7 @@ struct Pressure {
            Field<Vec3, NodeId>& f) const {
     const double p = table.at(t);
     if (p == 0) return;
-    set_.for_each([&](size_t i) {
+    set_.for_each(mesh, x, f, [&](size_t i) {
       const auto n = mesh.nodes_of(set_[i]);
       add_pressure(n, {x[n[0]], x[n[1]], x[n[2]], x[n[3]]}, p, f);
     });

@@ -56,7 +56,7 @@ struct PressureFront {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    set_.for_each([&](size_t i) {
+    set_.for_each(mesh, x, f, [&](size_t i) {
       const auto n = mesh.nodes_of(set_[i]);
       const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
       if (const double p = pressure(centre_of(corners), t); p > 0) add_pressure(n, corners, p, f);

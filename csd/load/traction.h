@@ -45,7 +45,7 @@ struct Traction {
   void add(const Mesh& mesh, const Field<Vec3, NodeId>&, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
     const Vec3 now = (factor ? factor->at(t) : 1.0) * per_area_;
-    set_.for_each([&](size_t i) {
+    set_.for_each(mesh, f, f, [&](size_t i) {
       const auto n = mesh.nodes_of(set_[i]);
       for (size_t a = 0; a < 4; ++a) f[n[a]] += share_[i][a] * now;
     });

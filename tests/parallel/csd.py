@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """csd on 1 to 4 ranks with 1 and 2 threads: the same bits in all fields, histories, fragments and totals, cracks included; 2 + 1 coupled.
-    csd.py BUILD_FOLDER [cracks | pieces | rigid | contact | bar | loaded | static | local | coupled | errors ...]   none named: all
+    csd.py BUILD_FOLDER [cracks | pieces | rigid | flying | contact | bar | loaded | static | local | coupled | errors ...]   none named: all
     csd.py BUILD_FOLDER weapon    the small weapon, 1+1 to 2+2 ranks and 2 threads"""
 import os
 import pathlib
@@ -106,6 +106,18 @@ def rigid():
     return faults + ([] if min(table["rigid_fragments"][-1], -table["contact_work"][-1], table["left_fragments"][-1]) > 0 else ["rigid: nothing becomes rigid, meets the wall or leaves"])
 
 
+# the same without conditions: nodes of rigid bodies follow where loads or elements beside them look
+FLYING = "".join("[[" + table for table in RIGID.split("[[") if not table.startswith("solid.condition")).removeprefix("[[")
+
+
+def flying():
+    faults, directory = compare("flying", FLYING, [("1", 1), ("1", 2), ("2", 1)])
+    table, residual = history(directory / "solid_history.csv"), summary(directory, "solid")["energies"]
+    share = abs(residual["residual"]) / residual["external"]
+    print(f"flying: {table['rigid_fragments'][-1]:.0f} of {table['fragments'][-1]:.0f} fragments are rigid, residual {share:.2g} of the work")
+    return faults + ([] if table["rigid_fragments"][-1] > 100 and share < 0.01 else ["flying: too few are rigid, or energy is lost"])
+
+
 CONTACT = (CRACKS.replace('"26 us"', '"34 us"') + '[solid.contact]\nrestitution = 0.5\nfriction = 0.2\n[solid.rigid]\nelements = 60\n'
            + '[[solid.body]]\nname = "shot"\nmesh = {kind = "box", lower = ["-68 mm", "-4 mm", "-4 mm"], upper = ["-62.5 mm", "4 mm", "4 mm"], cells = [3, 4, 4]}\n'
            + 'velocity = ["300 m/s", "20 m/s", 0.0]\n' + STEEL)
@@ -187,7 +199,7 @@ def errors():
 
 
 if __name__ == "__main__":
-    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "local": local, "coupled": coupled, "errors": errors}
+    groups = {"cracks": cracks, "pieces": pieces, "rigid": rigid, "flying": flying, "contact": contact, "bar": bar, "loaded": loaded, "static": static, "local": local, "coupled": coupled, "errors": errors}
     failures = [fault for group in arguments or groups for fault in (groups | {"weapon": weapon})[group]()]
     print("\n".join(failures) or "all the same")
     sys.exit(1 if failures else 0)

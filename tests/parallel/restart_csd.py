@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """csd goes on from a checkpoint with the bits of the run that was never stopped: in the middle of cracks, with other threads and ranks, killed at
 any instant, asked by a signal.
-    restart_csd.py BUILD_FOLDER [cracks | pieces | rigid | waiting | contact | bar | loaded | static | local | local_rigid | killed | signal | refused ...]   none named: all but waiting and local_rigid"""
+    restart_csd.py BUILD_FOLDER [cracks | pieces | rigid | flying | waiting | contact | bar | loaded | static | local | local_rigid | killed | signal | refused ...]   none named: all but waiting and local_rigid"""
 import os
 import pathlib
 import random
@@ -128,6 +128,7 @@ GROUPS = {"cracks": lambda: compare("cracks", csd.CRACKS, 74, [12, 45, 60, 72], 
           "pieces": lambda: compare("pieces", csd.PIECES, 76, [66], [(1, 2)]),
           # while the plate is free, after two fragments left the box; rigid pieces spin and meet the wall
           "rigid": lambda: compare("rigid", csd.RIGID, 80, [63, 75], [(2, 1), (1, 1)]),
+          "flying": lambda: compare("flying", csd.FLYING, 80, [63], [(2, 1)]),
           "waiting": lambda: compare("waiting", WAITING, 60, [45, 58], [(1, 2), (1, 1)]),
           # lips that have not parted; rigid fragments that meet
           "contact": lambda: compare("contact", csd.CONTACT, 70, [62], [(2, 1)]),

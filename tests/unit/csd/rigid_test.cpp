@@ -216,6 +216,7 @@ TEST(Rigid, PressureGivesForceAndMoment) {
   m.physics.rigid->start(m);
   const double dt = 1e-8, area = 0.02 * 0.03, mass = 8930 * 6e-6;
   for (int n = 0; n < 10; ++n) step(m, dt);
+  complete(m);
   const RigidBody& body = m.physics.rigid->bodies()[0];
   EXPECT_NEAR(body.mass(), mass, 1e-13 * mass);
   EXPECT_NEAR(body.velocity().x, 1e7 * area / mass * 10 * dt, 1e-12);
