@@ -2,6 +2,7 @@
 #include "cfd/books.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "common/parallel/loop.h"
@@ -21,6 +22,27 @@ FluidSums shells(const Model& m, int b) {
   return sum;
 }
 
+/// Of the cells that are not blocked (all if it is empty); what stands in blocked ones may be anything.
+double sum_of_open(const double* U, const std::vector<uint8_t>& blocked, int cells) {
+  constexpr int w = Pack::size;
+  Pack packs(0.0);
+  int c = 0;
+  for (; c + w <= cells; c += w) {
+    uint64_t some = 0;
+    if (!blocked.empty()) std::memcpy(&some, &blocked[size_t(c)], w);
+    Pack u = Pack::load(U + c);
+    if (some != 0)
+      for (int l = 0; l < w; ++l)
+        if (blocked[size_t(c + l)]) u.set(l, 0.0);
+    packs += u;
+  }
+  double sum = 0;
+  for (int l = 0; l < w; ++l) sum += packs[l];
+  for (; c < cells; ++c)
+    if (blocked.empty() || !blocked[size_t(c)]) sum += U[c];
+  return sum;
+}
+
 }  // namespace
 
 void Books::refresh(const Model& m, const std::vector<int>& blocks) {
@@ -37,13 +59,10 @@ void Books::refresh(const Model& m, const std::vector<int>& blocks) {
     const double volume = m.forest.shape(b).cell_volume();
     for (int q = 0; q < m.state.rows(); ++q) {
       const double* U = m.state.block(b, q);
-      Pack packs(0.0);
-      int c = 0;
-      if (blocked.empty() && open.empty())
-        for (; c + Pack::size <= cells; c += Pack::size) packs += Pack::load(U + c);
-      for (int l = 0; l < Pack::size; ++l) sum.U[q] += packs[l];
-      for (; c < cells; ++c)
-        if (blocked.empty() || !blocked[size_t(c)]) sum.U[q] += open.empty() ? U[c] : open[size_t(c)] * U[c];
+      if (!open.empty())
+        for (int c = 0; c < cells; ++c) sum.U[q] += open[size_t(c)] * U[c];
+      else
+        sum.U[q] = sum_of_open(U, blocked, cells);
     }
     sum.volume = double(blocked.empty() ? cells : std::count(blocked.begin(), blocked.end(), 0));
     if (!open.empty()) sum.volume = std::accumulate(open.begin(), open.end(), 0.0);

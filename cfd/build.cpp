@@ -299,14 +299,7 @@ std::vector<uint8_t> blocked_cells(const Model& m, int block) {
     return blocked;
   }
   blocked.assign(size_t(s.cells()), 0);
-  bool any = false;
-  for (int k = 0; k < s.n[2]; ++k)
-    for (int j = 0; j < s.n[1]; ++j)
-      for (int i = 0; i < s.n[0]; ++i) {
-        blocked[s.at(k, j, i)] = m.walls->map().blocked({first[0] + i, first[1] + j, first[2] + k});
-        any = any || blocked[s.at(k, j, i)];
-      }
-  if (!any) blocked.clear();
+  if (!m.walls->map().copy_blocked(first, s.n, blocked.data())) blocked.clear();
   return blocked;
 }
 

@@ -223,16 +223,8 @@ const uint8_t* Sweep::meet_walls(const State& s, int block, Space& space) {
   if (links) links->clear();
   cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)], links);
   load_probes(block, space, dt_);
-  const BlockShape& shape = forest_.shape();
-  space.blocked.assign(size_t(shape.cells()), 0);
-  bool any = false;
-  for (int k = 0; k < shape.n[2]; ++k)
-    for (int j = 0; j < shape.n[1]; ++j)
-      for (int i = 0; i < shape.n[0]; ++i) {
-        space.blocked[shape.at(k, j, i)] = space.cuts.blocked(space.cuts.at(k, j, i));
-        any = any || space.blocked[shape.at(k, j, i)];
-      }
-  return any ? space.blocked.data() : nullptr;
+  space.blocked.resize(size_t(forest_.shape().cells()));
+  return space.cuts.copy_blocked(space.blocked.data()) ? space.blocked.data() : nullptr;
 }
 
 /// dt: of the step that the scheme was prepared for; the walls stand where they are at its middle.

@@ -96,18 +96,25 @@ class Update {
       Pack U[GasCons::count], W[GasPrim::stored];
       for (int q = 0; q < GasCons::count; ++q) U[q] = Pack::load(old[q] + i) + Pack::load(d[q] + i);
       const int left = shape_.n[0] - i;
-      const Pack p = gas_to_primitive(gas, U, W, floors_);
+      const bool skip = in_.blocked && any_blocked(first + size_t(i), left);
+      const auto is_blocked = [&](int l) { return skip && in_.blocked[first + size_t(i + l)]; };
+      for (int l = 0; skip && l < std::min(left, w); ++l)
+        if (is_blocked(l))
+          for (int q = 0; q < GasCons::count; ++q) U[q].set(l, old[q][i + l]);
+      Pack p = gas_to_primitive(gas, U, W, floors_);
       const Mask fine = (p >= Pack(floors_.p)) & (U[GasCons::rho] >= Pack(floors_.rho));
       for (int q = 0; q < GasCons::count; ++q)
         if (left >= w)
           U[q].store(to[q] + i);
         else
           for (int l = 0; l < left; ++l) to[q][i + l] = U[q][l];
-      if (!all(fine)) {
+      if (!all(fine) || skip) {
         double* row[Cons::most];
         for (int q = 0; q < rows; ++q) row[q] = out + size_t(q) * cells + first;
         for (int l = 0; l < std::min(left, w); ++l)
-          if (!fine[l]) {
+          if (is_blocked(l)) {
+            for (Pack* a : {&W[GasPrim::v], &W[GasPrim::v + 1], &W[GasPrim::v + 2], &W[GasPrim::c], &p}) a->set(l, 0.0);
+          } else if (!fine[l]) {
             Pack all_W[Pair::n_prim];
             mend_cell(row, i + l, first + size_t(i + l), k, j, all_W, l, marks, booked, result);
             for (int q = 1; q < GasPrim::count; ++q) W[q].set(l, all_W[gas.prim_row(q)][l]);
@@ -127,9 +134,9 @@ class Update {
     return sum;
   }
   bool any_blocked(size_t cell, int left) const {
-    bool some = false;
-    for (int l = 0; l < std::min(left, Pack::size); ++l) some = some || in_.blocked[cell + size_t(l)];
-    return some;
+    uint64_t some = 0;
+    std::memcpy(&some, in_.blocked + cell, size_t(std::min(left, Pack::size)));
+    return some != 0;
   }
   static void note_alpha(double* const (&row)[Cons::most], int i, Extremes& e) {
     for (int m = 0; m < fractions; ++m) {
@@ -320,7 +327,7 @@ UpdateResult update_block(const UpdateInput& in, const Patch& patch, const doubl
   const size_t cells = size_t(s.cells());
   const int m = patch.material;
   const bool by_gas_kernel = m != 0 && in.medium->is_gas[m - 1];  // its rows of `change` alone are made
-  const bool gas = by_gas_kernel && !in.burns && !in.blocked;
+  const bool gas = by_gas_kernel && !in.burns;
   UpdateResult result;
   result.gas = gas ? m : 0;
   const int variables = in.medium->rows(), materials = in.medium->count();

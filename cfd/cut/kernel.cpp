@@ -382,7 +382,7 @@ void CutCellKernel::correct(const Patch& patch, const GasFlow& flow, double dt, 
 }
 
 void CutCellKernel::book_sides(BlockChange& change) {
-  sum_sides(shape_, change, [&](int k, int j, int i, int d, int upper, double* sum) {
+  sum_sides(shape_, change.book_sides, change, [&](int k, int j, int i, int d, int upper, double* sum) {
     const Cell x = cell_at(k, j, i);
     if (slot_[size_t(x.c)] == closed) return;
     const Flux F = upper ? face(x, moved(x, d, 1), d, true) : face(moved(x, d, -1), x, d, false);

@@ -72,7 +72,7 @@ class CutKernel {
           add(x, open_face(x, high, d), d, -1);
       }
     }
-    if (change.book_sides) book_sides(change);
+    book_sides(change);
   }
 
   /// CutScheme::load.
@@ -149,18 +149,25 @@ class CutKernel {
     return Gas::beyond(mean, other, 1);
   }
 
+  /// redo_: open cells that walls touch, and their neighbours; redo_sides_: the block's sides that have any of them.
   void mark(BlockChange& change) {
     redo_.clear();
+    redo_sides_ = 0;
     is_redo_.assign(size_t(cuts_->size()), 0);
+    std::vector<uint8_t> redo(size_t(shape_.n[0]));
     for (int k = 0; k < shape_.n[2]; ++k)
-      for (int j = 0; j < shape_.n[1]; ++j)
-        for (int i = 0; i < shape_.n[0]; ++i) {
+      for (int j = 0; j < shape_.n[1]; ++j) {
+        const uint8_t* touched = cuts_->touched() + cell_at(k, j, 0).c;
+        std::copy_n(touched, shape_.n[0], redo.begin());
+        for (int d = 0; d < 3; ++d)
+          if (shape_.used[size_t(d)])
+            for (int i = 0; i < shape_.n[0]; ++i) redo[size_t(i)] |= touched[i - cuts_->step(d)] | touched[i + cuts_->step(d)];
+        for (auto at = redo.begin(); (at = std::find(at, redo.end(), 1)) != redo.end(); ++at) {
+          const int i = int(at - redo.begin());
           const Cell x = cell_at(k, j, i);
-          bool redo = cuts_->touched(x.c);
-          for (int d = 0; d < 3 && !redo; ++d)
-            if (shape_.used[size_t(d)])
-              redo = cuts_->touched(x.c - cuts_->step(d)) || cuts_->touched(x.c + cuts_->step(d));
-          if (!redo) continue;
+          const int place[3] = {i, j, k};
+          for (int d = 0; d < 3; ++d)
+            redo_sides_ |= unsigned(place[d] == 0) << (2 * d) | unsigned(place[d] == shape_.n[size_t(d)] - 1) << (2 * d + 1);
           for (int q = 0; q < n_flux; ++q) change.row(flow_->cons_row(q), k, j)[i] = 0;
           if (cuts_->blocked(x.c)) continue;
           is_redo_[size_t(x.c)] = 1;
@@ -168,6 +175,7 @@ class CutKernel {
           place_.resize(size_t(cuts_->size()));
           place_[size_t(x.c)] = change.row(0, k, j) + i - change.row(0, 0, 0);
         }
+      }
   }
 
   void add(Cell x, const Face& f, int, double sign) {
@@ -478,7 +486,7 @@ class CutKernel {
   }
 
   void book_sides(BlockChange& change) {
-    sum_sides(shape_, change, [&](int k, int j, int i, int d, int upper, double* sum) {
+    sum_sides(shape_, change.book_sides & redo_sides_, change, [&](int k, int j, int i, int d, int upper, double* sum) {
       const Cell x = cell_at(k, j, i);
       if (cuts_->blocked(x.c) || cuts_->cut(x.c, d, upper)) return;
       const Face f = upper ? open_face(x, moved(x, d, 1), d) : open_face(moved(x, d, -1), x, d);
@@ -499,6 +507,7 @@ class CutKernel {
   ptrdiff_t stride_[3] = {};
   const double* row_[Flow::n] = {};
   std::vector<Cell> redo_;
+  unsigned redo_sides_ = 0;
   std::vector<uint8_t> is_redo_;  ///< by patch cell
   std::vector<ptrdiff_t> place_;  ///< by patch cell: offset in the change's rows
   std::vector<int32_t> slot_;     ///< by patch cell: into predicted_, -1: not yet

@@ -2,6 +2,7 @@
 #include "cfd/embed/cut_map.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace bw::cfd {
 
@@ -63,6 +64,32 @@ void CutMap::cover(Index3 c, int d, int first, int last) {
     }
     i = end;
   }
+}
+
+bool CutMap::copy_flags(const Place& y, const Place& z, int i0, int i1, uint8_t* out) const {
+  bool any = false;
+  for (int i = i0; i < i1;) {
+    const int end = std::min(i1, ((i + 1) / edge + 1) * edge - 1);  // first cell of the next tile
+    const Place x = place_along(0, i);
+    const int32_t t = tile_[x.tile + y.tile + z.tile];
+    if (t < 0)
+      std::memset(out + (i - i0), t == all_covered ? cell_covered : 0, size_t(end - i));
+    else
+      std::memcpy(out + (i - i0), &flags_[size_t(t) * cells + x.cell + y.cell + z.cell], size_t(end - i));
+    any = any || t != all_open;
+    i = end;
+  }
+  return any;
+}
+
+bool CutMap::copy_blocked(const Index3& first, const Index3& n, uint8_t* out) const {
+  uint8_t any = 0;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j, out += n[0]) {
+      if (!copy_flags(place_along(1, first[1] + j), place_along(2, first[2] + k), first[0], first[0] + n[0], out)) continue;
+      for (int i = 0; i < n[0]; ++i) any |= out[i] = (out[i] & cell_blocked) != 0;
+    }
+  return any;
 }
 
 bool CutMap::touches(Index3 lower, Index3 upper) const {

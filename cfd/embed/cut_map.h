@@ -71,10 +71,10 @@ class CutMap {
     c[size_t(d)] = i;
     return {tile_of(c), place(c)};
   }
-  uint8_t flags_at(size_t tile, size_t cell) const {
-    const int32_t t = tile_[tile];
-    return t >= 0 ? flags_[size_t(t) * cells + cell] : t == all_covered ? uint8_t(cell_covered) : uint8_t(0);
-  }
+  /// Flags of cells i0 <= i < i1 of the row with these places along y and z. Are any set?
+  bool copy_flags(const Place& y, const Place& z, int i0, int i1, uint8_t* out) const;
+  /// Are cells [first, first + n) blocked? [k][j][i], 1 or 0. Is any?
+  bool copy_blocked(const Index3& first, const Index3& n, uint8_t* out) const;
   /// May a cell in metal border on an open one without a cut link? (Open surfaces, sealed cells.)
   bool may_have_orphans() const { return may_have_orphans_; }
   bool blocked(const Index3& c) const { return flags(c) & cell_blocked; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cfd/embed/patch_cuts.h"
 
+#include <algorithm>
+
 namespace bw::cfd {
 
 PatchCuts::PatchCuts(const BlockShape& shape) : shape_(shape) {
@@ -12,6 +14,7 @@ PatchCuts::PatchCuts(const BlockShape& shape) : shape_(shape) {
   step_[0] = 1, step_[1] = e_[0], step_[2] = e_[0] * e_[1];
   bits_.resize(size_t(size()));
   raw_.resize(size_t(size()));
+  touched_.resize(size_t(size()));
   for (auto& w : wall_) w.resize(size_t(size()));
 }
 
@@ -129,26 +132,9 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   for (size_t d = 0; d < 3; ++d)  // ghosts from the other end of a periodic domain
     if (g_[d] > 0 && (rules[2 * d] == GhostRule::periodic))
       any_ = any_ || lower[d] < 0 || upper[d] > map.lattice().n[d];
-  all_blocked_ = false;
   if (!any_) return;
 
-  std::array<std::vector<CutMap::Place>, 3> place;
-  for (int d = 0; d < 3; ++d)
-    for (const Source& source : source_[d]) place[size_t(d)].push_back(map.place_along(d, source.index));
-  cut_cells_.clear();
-  for (int k = 0; k < e_[2]; ++k)
-    for (int j = 0; j < e_[1]; ++j) {
-      const CutMap::Place &z = place[2][size_t(k)], &y = place[1][size_t(j)];
-      const size_t tile = z.tile + y.tile, cell = z.cell + y.cell;
-      const int first = (k * e_[1] + j) * e_[0];
-      for (int i = 0; i < e_[0]; ++i) {
-        const CutMap::Place& x = place[0][size_t(i)];
-        const uint8_t f = map.flags_at(tile + x.tile, cell + x.cell);
-        raw_[size_t(first + i)] = f;
-        bits_[size_t(first + i)] = uint16_t(f & cell_blocked ? is_blocked : 0);
-        if (f >= cell_cut) cut_cells_.push_back({i - g_[0], j - g_[1], k - g_[2]});
-      }
-    }
+  read_flags(map);
   for (size_t d = 0; d < 3; ++d) {
     if (!shape_.used[d]) continue;
     const int n = map.lattice().n[d], end = e_[d] - g_[d] - 1;
@@ -158,7 +144,7 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
       if (c[d] < end && within(c[d]) && raw_[size_t(at_c)] & (cell_cut << d)) gather_links(map, int(d), c, at_c);
     }
     for (int i = -g_[d]; i < end; ++i) {
-      if (within(i) && !map.may_have_orphans()) continue;
+      if (within(i) ? !map.may_have_orphans() : !meets_walls(map, int(d), i)) continue;
       Index3 c, low{-g_[0], -g_[1], -g_[2]}, high{e_[0] - g_[0], e_[1] - g_[1], e_[2] - g_[2]};
       low[d] = i, high[d] = i + 1;
       for (c[2] = low[2]; c[2] < high[2]; ++c[2])
@@ -170,10 +156,52 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
     }
   }
   gather_apertures(map, lower, upper);
-  all_blocked_ = true;
+  for (size_t c = 0; c < bits_.size(); ++c) touched_[c] = (bits_[c] & (is_blocked | all_cuts | all_narrow)) != 0;
+}
+
+/// Flags of the cells that the patch's cells stand for: raw_, bits_ of blocked ones, cut_cells_.
+void PatchCuts::read_flags(const CutMap& map) {
+  cut_cells_.clear();
+  const int n = map.lattice().n[0], first = std::clamp(g_[0] - origin_[0], 0, e_[0]),
+            last = std::clamp(n + g_[0] - origin_[0], first, e_[0]);  // patch cells along x that are the lattice's own
+  for (int k = 0; k < e_[2]; ++k)
+    for (int j = 0; j < e_[1]; ++j) {
+      const CutMap::Place y = map.place_along(1, source_[1][size_t(j)].index), z = map.place_along(2, source_[2][size_t(k)].index);
+      uint8_t* raw = &raw_[size_t((k * e_[1] + j) * e_[0])];
+      uint16_t* bits = &bits_[size_t((k * e_[1] + j) * e_[0])];
+      bool some = map.copy_flags(y, z, origin_[0] + first - g_[0], origin_[0] + last - g_[0], raw + first);
+      for (int i = 0; i < e_[0]; ++i)
+        if (const int from = source_[0][size_t(i)].index; i < first || i >= last) some = map.copy_flags(y, z, from, from + 1, raw + i) || some;
+      for (int i = 0; i < e_[0]; ++i) bits[i] = uint16_t(raw[i] & cell_blocked ? is_blocked : 0);
+      if (!some) continue;
+      for (int i = 0; i < e_[0]; ++i)
+        if (raw[i] >= cell_cut) cut_cells_.push_back({i - g_[0], j - g_[1], k - g_[2]});
+    }
+}
+
+/// May anything but open fluid be among what links between layers i and i + 1 along d stand for?
+bool PatchCuts::meets_walls(const CutMap& map, int d, int i) const {
+  Index3 lower, upper;
+  for (int e = 0; e < 3; ++e) {
+    const size_t first = size_t(e == d ? i + g_[e] : 0), last = e == d ? first + 1 : source_[e].size() - 1;
+    lower[size_t(e)] = map.lattice().n[size_t(e)], upper[size_t(e)] = 0;
+    for (size_t at = first; at <= last; ++at) {
+      lower[size_t(e)] = std::min(lower[size_t(e)], source_[e][at].index);
+      upper[size_t(e)] = std::max(upper[size_t(e)], source_[e][at].index + 1);
+    }
+  }
+  --lower[size_t(d)], ++upper[size_t(d)];  // links through the lattice's sides
+  return map.touches(lower, upper);
+}
+
+bool PatchCuts::copy_blocked(uint8_t* out) const {
+  uint8_t any = 0;
   for (int k = 0; k < shape_.n[2]; ++k)
-    for (int j = 0; j < shape_.n[1]; ++j)
-      for (int i = 0; i < shape_.n[0]; ++i) all_blocked_ = all_blocked_ && blocked(at(k, j, i));
+    for (int j = 0; j < shape_.n[1]; ++j, out += shape_.n[0]) {
+      const uint16_t* bits = &bits_[size_t(at(k, j, 0))];
+      for (int i = 0; i < shape_.n[0]; ++i) any |= out[i] = (bits[i] & is_blocked) != 0;
+    }
+  return any;
 }
 
 }  // namespace bw::cfd

@@ -32,17 +32,21 @@ class PatchCuts {
   bool narrow(int c, int d, int side) const { return bits_[size_t(c)] & (first_narrow << (2 * d + side)); }
   /// That part, where narrow().
   double open(int c, int d, int side) const { return open_[size_t(wall_[2 * d + side][size_t(c)])]; }
-  bool touched(int c) const { return bits_[size_t(c)] & (is_blocked | all_cuts | all_narrow); }
+  bool touched(int c) const { return touched_[size_t(c)]; }
+  const uint8_t* touched() const { return touched_.data(); }  ///< [size()]
   const WallSide& wall(int c, int d, int side) const { return walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
-  bool any() const { return any_; }                  ///< anything but open fluid?
-  bool all_blocked() const { return all_blocked_; }  ///< no fluid in the block itself
-  int orphans() const { return orphans_; }           ///< links into metal that no face cuts (open surfaces)
+  bool any() const { return any_; }         ///< anything but open fluid?
+  int orphans() const { return orphans_; }  ///< links into metal that no face cuts (open surfaces)
+  /// Is a cell of the block itself blocked? [k][j][i], 1 or 0. Is any?
+  bool copy_blocked(uint8_t* out) const;
   const BlockShape& shape() const { return shape_; }
 
  private:
   static constexpr uint16_t all_cuts = 63, is_blocked = 64, first_narrow = 128, all_narrow = all_cuts * first_narrow;
   void set_wall(int c, int d, int side, const WallSide& w);
   void close_orphan(int d, int c);
+  void read_flags(const CutMap& map);
+  bool meets_walls(const CutMap& map, int d, int i) const;
   void gather_apertures(const CutMap& map, const Index3& lower, const Index3& upper);
   void gather_links(const CutMap& map, int d, const Index3& c, int at);
 
@@ -58,11 +62,12 @@ class PatchCuts {
   Index3 origin_{};
   std::vector<uint16_t> bits_;
   std::vector<uint8_t> raw_;       ///< CellFlag bits of the source cells
+  std::vector<uint8_t> touched_;   ///< any bit
   std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
   std::vector<int32_t> wall_[6];   ///< into walls_, valid where the bit is set
   std::vector<WallSide> walls_;
   std::vector<double> open_;  ///< [walls_]
-  bool any_ = false, all_blocked_ = false;
+  bool any_ = false;
   int orphans_ = 0;
 };
 

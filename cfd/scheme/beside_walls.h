@@ -7,13 +7,13 @@
 
 namespace bw::cfd {
 
-/// For each of change.book_sides: zero, then add(k, j, i, d, upper, sum) for the cells along it; sum: change.side's
-/// rows.
+/// For each of `sides` (bit 2d + upper): zero, then add(k, j, i, d, upper, sum) for the cells along it; sum:
+/// change.side's rows.
 template <class Add>
-void sum_sides(const BlockShape& shape, BlockChange& change, const Add& add) {
+void sum_sides(const BlockShape& shape, unsigned sides, BlockChange& change, const Add& add) {
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
-      if (!shape.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
+      if (!shape.used[size_t(d)] || !(sides >> (2 * d + upper) & 1)) continue;
       double(&sum)[Cons::most] = change.side[2 * d + upper];
       std::fill(sum, sum + change.rows, 0.0);
       Index3 first{0, 0, 0}, last = shape.n;
