@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cfd/adapt.h"
 #include "cfd/afterburn.h"
 #include "common/app/log.h"
@@ -13,11 +15,13 @@ namespace {
 
 constexpr int most_tries = 8, told_repeats = 5;
 
-/// The walls have moved or are new: cells that they freed get a state, and what changed hands is booked.
-void follow_walls(Model& m, Sweep& sweep, Books& books) {
+/// The walls have moved or are new: cells that they freed get a state, and what changed hands is booked. changed: blocks
+/// whose sums have changed already.
+void follow_walls(Model& m, Sweep& sweep, Books& books, std::vector<int> changed = {}) {
   Timed timed("covered and uncovered cells");
-  std::vector<int> changed;
   sweep.refill(m.state, changed, books.swept);
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   books.refresh(m, changed);
 }
 
@@ -93,8 +97,9 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
   sweep.commit(m.state);
   if (m.setup.afterburn) m.setup.afterburn->share = share;
   books.seconds_between_levels = sweep.seconds_between_levels();
-  books.refresh(m, sweep.active());
-  if (m.walls) {
+  if (!m.walls) {
+    books.refresh(m, sweep.active());
+  } else {
     const std::vector<Vec3> v = m.walls->surface().v;
     if (!mean) sweep.measure_loads(m.state);
     {
@@ -106,7 +111,7 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
       book_walls(m, sweep, books, dt, *loads, v);
       m.walls->end(motion->x_end(dt));
     }
-    follow_walls(m, sweep, books);
+    follow_walls(m, sweep, books, sweep.active());
   }
   adapt(m, sweep, books);
   return dt;

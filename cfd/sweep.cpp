@@ -169,6 +169,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
       if (shape.used[size_t(d)] && forest_.at_side(block, d, upper)) change.book_sides |= 1u << (2 * d + upper);
   change.keep_sides = fluxes_.sides(block);
   change.make_sides();
+  const CutFaces* cut = near_[size_t(block)] == near && !walls_->cut() ? cut_faces(block, space) : nullptr;
   if (shape.radial()) {
     unsigned mirror = 0;
     for (int upper = 0; upper < 2; ++upper)
@@ -178,12 +179,12 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
     else
       advance_radial(patch, setup_.medium, dt_, mirror, space.radial, change);
   } else if (is_gas_block)
-    space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change);
+    space.gas->advance(patch, setup_.medium.gas[m - 1], dt_, change, cut);
   else if (space.many)
-    space.many->advance(patch, dt_, change);
+    space.many->advance(patch, dt_, change, cut);
   else
-    space.mixed->advance(patch, mixed_flow(setup_.medium), dt_, change);
-  if (near_[size_t(block)] == near) in.blocked = meet_walls(s, block, space);
+    space.mixed->advance(patch, mixed_flow(setup_.medium), dt_, change, cut);
+  if (near_[size_t(block)] == near) in.blocked = meet_walls(s, block, cut, space);
   if (change.keep_sides) match_levels(block, space);
   in.others_hold = m != 0 && gas_before_[size_t(block)] == m;
   marks_[size_t(block)].clear();
@@ -206,7 +207,12 @@ void Sweep::match_levels(int block, Space& space) {
   fluxes_.correct(block, space.patch, rows, space.change);
 }
 
-const uint8_t* Sweep::meet_walls(const State& s, int block, Space& space) {
+const CutFaces* Sweep::cut_faces(int block, Space& space) {
+  space.cuts.gather(walls_->map(), walls_->rules(), forest_.first_cell(block));
+  return space.cuts.any() ? &cut_scheme(space).prepare(space.patch, space.cuts, dt_) : nullptr;
+}
+
+const uint8_t* Sweep::meet_walls(const State& s, int block, bool cut, Space& space) {
   const Index3 first = forest_.first_cell(block);
   if (walls_->cut()) {
     wall_[size_t(block)] = {};
@@ -216,12 +222,11 @@ const uint8_t* Sweep::meet_walls(const State& s, int block, Space& space) {
                             wall_[size_t(block)], links_[size_t(block)], space.blocked);
     return space.blocked.data();
   }
-  space.cuts.gather(walls_->map(), walls_->rules(), first);
-  if (!space.cuts.any()) return nullptr;
+  if (!cut) return nullptr;
   wall_[size_t(block)] = {};
   std::vector<LinkLoad>* links = links_.empty() ? nullptr : &links_[size_t(block)];
   if (links) links->clear();
-  cut_scheme(space).correct(space.patch, space.cuts, dt_, space.change, wall_[size_t(block)], links);
+  cut_scheme(space).correct(space.change, wall_[size_t(block)], links);
   load_probes(block, space, dt_);
   space.blocked.resize(size_t(forest_.shape().cells()));
   return space.cuts.copy_blocked(space.blocked.data()) ? space.blocked.data() : nullptr;

@@ -108,9 +108,11 @@ class Sweep {
   CutScheme& cut_scheme(Space& space) const {
     return is_gas(space.patch) ? *space.cut_gas[space.patch.material - 1] : *space.cut_mixed;
   }
+  /// Of a block near walls, before its kernel runs; nullptr: none in its patch.
+  const CutFaces* cut_faces(int block, Space& space);
   /// Corrects the change beside walls, loads the block's probes; returns the cells without fluid, nullptr if there are
-  /// none.
-  const uint8_t* meet_walls(const State& s, int block, Space& space);
+  /// none. cut: cut_faces() had any.
+  const uint8_t* meet_walls(const State& s, int block, bool cut, Space& space);
   /// The end of the step of cut cells and those around them, in the spare copies.
   void mix_cut_cells(State& s);
   void load_probes(int block, Space& space, double dt);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step of a block with walls in it: the block kernel (cfd/scheme/block_kernel.h) runs as if there were none, then
-// the cells whose stencil meets a cut link are done again here with one-sided slopes and wall fluxes.
+// The step of a block with walls in it: cells that a wall cuts off from a neighbour get one-sided slopes here, the block
+// kernel (cfd/scheme/block_kernel.h) takes their face states as it finds them and lets nothing through the faces of cut
+// links, and what the wall gives there is added.
 //
 // Along a grid line with the wall at distance s (in cells) from centre 0 and neighbour 1 on the other side [1-D: the
 // linear half-Riemann wall]:
@@ -16,6 +17,7 @@
 // Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
 #pragma once
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -45,34 +47,46 @@ class CutKernel {
   explicit CutKernel(const BlockShape& shape, WallTreatment treatment = WallTreatment::half_riemann)
       : shape_(shape), treatment_(treatment) {}
 
-  /// After BlockKernel::advance with the same arguments: corrects `change` in and near cut cells, 0 in blocked ones.
-  void correct(const Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt,
-               BlockChange& change, WallExchange& exchange, std::vector<LinkLoad>* links = nullptr) {
+  /// CutScheme::prepare.
+  const CutFaces& prepare(Patch& patch, const PatchCuts& cuts, const Flow& flow, const Eos& eos, double dt) {
     begin(patch, cuts, flow, eos, dt);
+    faces_.clear(shape_, n);
+    beside_.clear();
+    const int g[3] = {shape_.used[0], shape_.used[1], shape_.used[2]};
+    for (int k = -g[2]; k < shape_.n[2] + g[2]; ++k)
+      for (int j = -g[1]; j < shape_.n[1] + g[1]; ++j) {
+        const bool in_k = k >= 0 && k < shape_.n[2], in_j = j >= 0 && j < shape_.n[1], inside = in_k && in_j;
+        if (!in_k && !in_j) continue;
+        const int first = inside ? -g[0] : 0, end = shape_.n[0] - first;
+        const uint8_t* const row = cuts.touched() + cell_at(k, j, 0).c;
+        for (const uint8_t *at = row + first, *last = row + end;
+             at != last && (at = static_cast<const uint8_t*>(std::memchr(at, 1, size_t(last - at)))); ++at) {
+          const int i = int(at - row);
+          const Cell x = cell_at(k, j, i);
+          if (patch.shocked) patch.row(Prim::shock, k, j)[i] = 0;  // it has seen states behind the wall
+          if (cuts.blocked(x.c)) continue;
+          const Predicted& own = predicted(x);
+          faces_.give(k, j, i, own.half.data(), own.slope[0]);
+          shut_faces(x, k, j, i);
+          if (inside && i >= 0 && i < shape_.n[0]) beside_.push_back({x, {i, j, k}});
+        }
+      }
+    return faces_;
+  }
+
+  /// CutScheme::correct.
+  void correct(BlockChange& change, WallExchange& exchange, std::vector<LinkLoad>* links = nullptr) {
     change_ = &change, exchange_ = &exchange, links_ = links;
-    mark(change);
-    for (const Cell& x : redo_) {
+    for (const auto& [x, at] : beside_)
       for (int d = 0; d < 3; ++d) {
         if (!shape_.used[size_t(d)]) continue;
-        const Cell low = moved(x, d, -1), high = moved(x, d, 1);
-        if (cuts.narrow(x.c, d, 0))
-          add(x, narrow_face(low, x, d, 0), d, 1);
-        else if (cuts.cut(x.c, d, 0))
-          add(x, wall_face(x, d, 0), d, 1);
-        else {
-          const Face f = open_face(low, x, d);
-          add(x, f, d, 1);
-          if (is_redo_[size_t(low.c)]) add(low, f, d, -1);
+        for (int side = 0; side < 2; ++side) {
+          if (cuts_->narrow(x.c, d, side))
+            add(x, at, side ? narrow_face(x, moved(x, d, 1), d, 1) : narrow_face(moved(x, d, -1), x, d, 0), side ? -1 : 1);
+          else if (cuts_->cut(x.c, d, side))
+            add(x, at, wall_face(x, d, side), side ? -1 : 1);
         }
-        if (cuts.narrow(x.c, d, 1))
-          add(x, narrow_face(x, high, d, 1), d, -1);
-        else if (cuts.cut(x.c, d, 1))
-          add(x, wall_face(x, d, 1), d, -1);
-        else if (!is_redo_[size_t(high.c)])
-          add(x, open_face(x, high, d), d, -1);
       }
-    }
-    book_sides(change);
   }
 
   /// CutScheme::load.
@@ -100,7 +114,9 @@ class CutKernel {
     }
     stride_[0] = 1, stride_[1] = patch.stride_j(), stride_[2] = patch.stride_k();
     for (int q = 0; q < n; ++q) row_[q] = patch.row(flow.prim_row(q), 0, 0);
-    slot_.assign(size_t(cuts.size()), -1);
+    slot_.resize(size_t(cuts.size()), -1);
+    for (const int32_t c : predicted_cells_) slot_[size_t(c)] = -1;
+    predicted_cells_.clear();
     predicted_.clear();
   }
 
@@ -149,42 +165,29 @@ class CutKernel {
     return Gas::beyond(mean, other, 1);
   }
 
-  /// redo_: open cells that walls touch, and their neighbours; redo_sides_: the block's sides that have any of them.
-  void mark(BlockChange& change) {
-    redo_.clear();
-    redo_sides_ = 0;
-    is_redo_.assign(size_t(cuts_->size()), 0);
-    std::vector<uint8_t> redo(size_t(shape_.n[0]));
-    for (int k = 0; k < shape_.n[2]; ++k)
-      for (int j = 0; j < shape_.n[1]; ++j) {
-        const uint8_t* touched = cuts_->touched() + cell_at(k, j, 0).c;
-        std::copy_n(touched, shape_.n[0], redo.begin());
-        for (int d = 0; d < 3; ++d)
-          if (shape_.used[size_t(d)])
-            for (int i = 0; i < shape_.n[0]; ++i) redo[size_t(i)] |= touched[i - cuts_->step(d)] | touched[i + cuts_->step(d)];
-        for (auto at = redo.begin(); (at = std::find(at, redo.end(), 1)) != redo.end(); ++at) {
-          const int i = int(at - redo.begin());
-          const Cell x = cell_at(k, j, i);
-          const int place[3] = {i, j, k};
-          for (int d = 0; d < 3; ++d)
-            redo_sides_ |= unsigned(place[d] == 0) << (2 * d) | unsigned(place[d] == shape_.n[size_t(d)] - 1) << (2 * d + 1);
-          for (int q = 0; q < n_flux; ++q) change.row(flow_->cons_row(q), k, j)[i] = 0;
-          if (cuts_->blocked(x.c)) continue;
-          is_redo_[size_t(x.c)] = 1;
-          redo_.push_back(x);
-          place_.resize(size_t(cuts_->size()));
-          place_[size_t(x.c)] = change.row(0, k, j) + i - change.row(0, 0, 0);
-        }
+  /// Those of the faces of cell (k, j, i) that walls shut wholly or in part, where the block kernel has them.
+  void shut_faces(Cell x, int k, int j, int i) {
+    const int at[3] = {i, j, k};
+    for (int d = 0; d < 3; ++d) {
+      if (!shape_.used[size_t(d)]) continue;
+      bool of_block = true;  // a ghost beside a side along another direction has no such face
+      for (int e = 0; e < 3; ++e) of_block = of_block && (e == d || (at[e] >= 0 && at[e] < shape_.n[size_t(e)]));
+      if (!of_block) continue;
+      for (int side = 0; side < 2; ++side) {
+        const int face = at[d] + side;
+        if (face < 0 || face > shape_.n[size_t(d)] || !(cuts_->cut(x.c, d, side) || cuts_->narrow(x.c, d, side))) continue;
+        faces_.shut(d, d == 2 ? face : k, d == 1 ? face : j, d == 0 ? face : i);
       }
+    }
   }
 
-  void add(Cell x, const Face& f, int, double sign) {
-    const ptrdiff_t at = place_[size_t(x.c)];
+  /// sign: 1 through the lower face of cell x, which is (i, j, k) of the block, -1 through its upper one.
+  void add(Cell x, const Index3& at, const Face& f, double sign) {
     for (int q = 0; q < n_flux; ++q) {
       double change = f.F[q];
       if constexpr (Flow::mixed)
         if (Cons::is_alpha(q)) change -= row_[q == Cons::alpha1 ? int(Prim::alpha1) : q + 1][x.p] * f.v;
-      change_->row(flow_->cons_row(q), 0, 0)[at] += sign * change;
+      change_->row(flow_->cons_row(q), at[2], at[1])[at[0]] += sign * change;
     }
   }
 
@@ -218,6 +221,7 @@ class CutKernel {
   const Predicted& predicted(Cell x) {
     if (const int32_t s = slot_[size_t(x.c)]; s >= 0) return predicted_[size_t(s)];
     slot_[size_t(x.c)] = int32_t(predicted_.size());
+    predicted_cells_.push_back(x.c);
     predicted_.emplace_back();
     Predicted& r = predicted_.back();
     r.pocket = treatment_ == WallTreatment::first_order || is_pocket(x);
@@ -282,15 +286,7 @@ class CutKernel {
       const double* z = patch_->row(Prim::stored_energy, 0, 0);
       stored = 0.5 * (z[low.p] + z[high.p]);
     }
-    return solve(L, R, sound(low), sound(high), d, stored, in_shock(low, high));
-  }
-
-  /// Row Prim::shock at a face away from walls: the block kernel damps the other side of it. 0 beside walls, where the
-  /// row has seen states behind them.
-  double in_shock(Cell low, Cell high) const {
-    if (Flow::mixed || !patch_->shocked || cuts_->touched(low.c) || cuts_->touched(high.c)) return 0;
-    const double* row = patch_->row(Prim::shock, 0, 0);
-    return std::max(row[low.p], row[high.p]);
+    return solve(L, R, sound(low), sound(high), d, stored);
   }
 
   Sound<double> sound(Cell x) const {
@@ -300,19 +296,12 @@ class CutKernel {
   }
 
   Face solve(const double (&L)[Flow::n], const double (&R)[Flow::n], const Sound<double>& sound_L,
-             const Sound<double>& sound_R, int d, double stored, double in_shock = 0) const {
+             const Sound<double>& sound_R, int d, double stored) const {
     Face f;
     f.v = lambda_[d] * (d == 0   ? flow_->template flux<0>(L, R, sound_L, sound_R, f.F)
                         : d == 1 ? flow_->template flux<1>(L, R, sound_L, sound_R, f.F)
                                  : flow_->template flux<2>(L, R, sound_L, sound_R, f.F));
     if constexpr (Flow::mixed) f.F[Cons::rhoE] += f.F[Cons::arho1] * stored;
-    if constexpr (!Flow::mixed)
-      if (in_shock > 0) {
-        const double c = std::max(sound_L.c, sound_R.c);
-        if (d == 0) damp_along_shock<0, Flow>(L, R, c, in_shock, f.F);
-        if (d == 1) damp_along_shock<1, Flow>(L, R, c, in_shock, f.F);
-        if (d == 2) damp_along_shock<2, Flow>(L, R, c, in_shock, f.F);
-      }
     for (double& F : f.F) F *= lambda_[d];
     return f;
   }
@@ -485,15 +474,6 @@ class CutKernel {
     return v < dot(Vec3{inner[Gas::v], inner[Gas::v + 1], inner[Gas::v + 2]}, normal) && v + c >= 0;
   }
 
-  void book_sides(BlockChange& change) {
-    sum_sides(shape_, change.book_sides & redo_sides_, change, [&](int k, int j, int i, int d, int upper, double* sum) {
-      const Cell x = cell_at(k, j, i);
-      if (cuts_->blocked(x.c) || cuts_->cut(x.c, d, upper)) return;
-      const Face f = upper ? open_face(x, moved(x, d, 1), d) : open_face(moved(x, d, -1), x, d);
-      for (int q = 0; q < n_flux; ++q) sum[flow_->cons_row(q)] += f.F[q];
-    });
-  }
-
   BlockShape shape_;
   WallTreatment treatment_;
   const Patch* patch_ = nullptr;
@@ -506,11 +486,14 @@ class CutKernel {
   double dt_ = 0, lambda_[3] = {}, half_lambda_[3] = {};
   ptrdiff_t stride_[3] = {};
   const double* row_[Flow::n] = {};
-  std::vector<Cell> redo_;
-  unsigned redo_sides_ = 0;
-  std::vector<uint8_t> is_redo_;  ///< by patch cell
-  std::vector<ptrdiff_t> place_;  ///< by patch cell: offset in the change's rows
+  CutFaces faces_;
+  struct InBlock {
+    Cell x;
+    Index3 at;  ///< i, j, k
+  };
+  std::vector<InBlock> beside_;   ///< open cells of the block with a cut or narrow face
   std::vector<int32_t> slot_;     ///< by patch cell: into predicted_, -1: not yet
+  std::vector<int32_t> predicted_cells_;  ///< patch cells, as predicted_
   std::vector<Predicted> predicted_;
 };
 

@@ -60,7 +60,7 @@ class CutMap {
   const Lattice& lattice() const { return lattice_; }
   uint8_t flags(const Index3& c) const {
     const int32_t t = tile_[tile_of(c)];
-    return t == all_open ? 0 : t == all_covered ? uint8_t(cell_covered) : flags_[size_t(t) * cells + place(c)];
+    return t == open_tile ? 0 : t == covered_tile ? uint8_t(cell_covered) : flags_[size_t(t) * cells + place(c)];
   }
   /// Where index i of direction d is kept: a cell's place is the sum over its directions. For loops over many cells.
   struct Place {
@@ -71,6 +71,7 @@ class CutMap {
     c[size_t(d)] = i;
     return {tile_of(c), place(c)};
   }
+  bool all_open(size_t tile) const { return tile_[tile] == open_tile; }
   /// Flags of cells i0 <= i < i1 of the row with these places along y and z. Are any set?
   bool copy_flags(const Place& y, const Place& z, int i0, int i1, uint8_t* out) const;
   /// Are cells [first, first + n) blocked? [k][j][i], 1 or 0. Is any?
@@ -141,7 +142,7 @@ class CutMap {
   }
 
  private:
-  static constexpr int32_t all_open = -1, all_covered = -2;
+  static constexpr int32_t open_tile = -1, covered_tile = -2;
   // tiles are shifted by one cell, so that cell -1 is in the first
   size_t tile_of(const Index3& c) const {
     return (size_t((c[2] + 1) / edge) * tiles_[1] + size_t((c[1] + 1) / edge)) * tiles_[0] + size_t((c[0] + 1) / edge);
@@ -157,7 +158,7 @@ class CutMap {
 
   Lattice lattice_;
   size_t tiles_[3] = {0, 0, 0};
-  std::vector<int32_t> tile_;     ///< [tile] all_open, all_covered, or the place of its cells below
+  std::vector<int32_t> tile_;     ///< [tile] open_tile, covered_tile, or the place of its cells below
   std::vector<uint8_t> flags_;    ///< [made tile][cell]
   std::vector<int32_t> link_[3];  ///< [made tile][cell] into links_; valid where the flag is set
   std::vector<CutLink> links_;

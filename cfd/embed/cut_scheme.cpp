@@ -12,9 +12,11 @@ class Scheme final : public CutScheme {
   Scheme(const Eos& eos, const typename Eos::Flow& flow, const BlockShape& shape, WallTreatment treatment)
       : eos_(eos), flow_(flow), kernel_(shape, treatment) {}
 
-  void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change, WallExchange& exchange,
-               std::vector<LinkLoad>* links) override {
-    kernel_.correct(patch, cuts, flow_, eos_, dt, change, exchange, links);
+  const CutFaces& prepare(Patch& patch, const PatchCuts& cuts, double dt) override {
+    return kernel_.prepare(patch, cuts, flow_, eos_, dt);
+  }
+  void correct(BlockChange& change, WallExchange& exchange, std::vector<LinkLoad>* links) override {
+    kernel_.correct(change, exchange, links);
   }
   void begin(const Patch& patch, const PatchCuts& cuts, double dt) override {
     kernel_.begin(patch, cuts, flow_, eos_, dt);

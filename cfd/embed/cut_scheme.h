@@ -48,11 +48,12 @@ struct WallLoad {
 class CutScheme {
  public:
   virtual ~CutScheme() = default;
-  /// After BlockKernel::advance with the same patch, flow and dt: corrects `change` (and its book of sides) in and near
-  /// cut cells; 0 in blocked cells. exchange, and links unless nullptr: added to.
-  virtual void correct(const Patch& patch, const PatchCuts& cuts, double dt, BlockChange& change,
-                       WallExchange& exchange, std::vector<LinkLoad>* links) = 0;
-  /// For load() without correct(): dt = 0 gives loads at the patch's own time.
+  /// What BlockKernel::advance then takes; valid until the next. Row Prim::shock becomes 0 beside walls.
+  virtual const CutFaces& prepare(Patch& patch, const PatchCuts& cuts, double dt) = 0;
+  /// After prepare() and BlockKernel::advance with the same patch, flow and dt: adds what walls give through cut faces to
+  /// `change`, which means nothing in blocked cells. exchange, and links unless nullptr: added to.
+  virtual void correct(BlockChange& change, WallExchange& exchange, std::vector<LinkLoad>* links) = 0;
+  /// For load() without prepare(): dt = 0 gives loads at the patch's own time.
   virtual void begin(const Patch& patch, const PatchCuts& cuts, double dt) = 0;
   /// Pressure at x on a wall with unit normal n into the fluid and velocity v, dt/2 after the patch's time, seen from
   /// the open cell (i, j, k) of the block: second order from its own side, then the half-Riemann wall.

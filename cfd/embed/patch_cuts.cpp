@@ -2,6 +2,7 @@
 #include "cfd/embed/patch_cuts.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace bw::cfd {
 
@@ -15,14 +16,17 @@ PatchCuts::PatchCuts(const BlockShape& shape) : shape_(shape) {
   bits_.resize(size_t(size()));
   raw_.resize(size_t(size()));
   touched_.resize(size_t(size()));
+  written_.resize(size_t(e_[1] * e_[2]));
   for (auto& w : wall_) w.resize(size_t(size()));
 }
 
-void PatchCuts::set_wall(int c, int d, int side, const WallSide& w) {
-  bits_[size_t(c)] |= uint16_t(1u << (2 * d + side));
+void PatchCuts::set_wall(int c, uint16_t bit, int d, int side, const WallSide& w, double open) {
+  bits_[size_t(c)] |= uint16_t(bit << (2 * d + side));
+  touched_[size_t(c)] = 1;
+  written_[size_t(c / e_[0])] = 1;
   wall_[2 * d + side][size_t(c)] = int32_t(walls_.size());
   walls_.push_back(w);
-  open_.push_back(0);
+  open_.push_back(open);
 }
 
 /// Apertures between cells of the lattice; those in ghosts beyond its sides matter to no flux.
@@ -35,13 +39,8 @@ void PatchCuts::gather_apertures(const CutMap& map, const Index3& lower, const I
     }
     const int low = at(c[2], c[1], c[0]), high = low + step_[a.d];
     if (blocked(low) || blocked(high)) return;
-    for (const int side : {1, 0}) {
-      const int cell = side ? low : high;
-      bits_[size_t(cell)] |= uint16_t(first_narrow << (2 * a.d + side));
-      wall_[2 * a.d + side][size_t(cell)] = int32_t(walls_.size());
-      walls_.push_back(side ? a.link.below : a.link.above);
-      open_.push_back(a.open);
-    }
+    set_wall(low, first_narrow, a.d, 1, a.link.below, a.open);
+    set_wall(high, first_narrow, a.d, 0, a.link.above, a.open);
   });
 }
 
@@ -84,8 +83,8 @@ void PatchCuts::gather_links(const CutMap& map, int d, const Index3& c, int at) 
         w->n[e] = -w->n[e];
         w->v[e] = -w->v[e];
       }
-  set_wall(at, d, 1, below);
-  set_wall(at + step_[d], d, 0, above);
+  set_wall(at, first_cut, d, 1, below);
+  set_wall(at + step_[d], first_cut, d, 0, above);
 }
 
 /// No face between metal and fluid: an open surface ends here, or a cell is sealed. A resting wall half way.
@@ -94,8 +93,8 @@ void PatchCuts::close_orphan(int d, int c) {
   if (blocked(c) == blocked(u) || cut(c, d, 1)) return;
   Vec3 n;
   n[d] = blocked(c) ? 1 : -1;
-  set_wall(c, d, 1, {0.5, n, {}, -1});
-  set_wall(u, d, 0, {0.5, n, {}, -1});
+  set_wall(c, first_cut, d, 1, {0.5, n, {}, -1});
+  set_wall(u, first_cut, d, 0, {0.5, n, {}, -1});
   ++orphans_;
 }
 
@@ -156,25 +155,40 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
     }
   }
   gather_apertures(map, lower, upper);
-  for (size_t c = 0; c < bits_.size(); ++c) touched_[c] = (bits_[c] & (is_blocked | all_cuts | all_narrow)) != 0;
 }
 
-/// Flags of the cells that the patch's cells stand for: raw_, bits_ of blocked ones, cut_cells_.
+/// Flags of the cells that the patch's cells stand for: raw_, bits_ and touched_ of blocked ones, cut_cells_.
 void PatchCuts::read_flags(const CutMap& map) {
   cut_cells_.clear();
-  const int n = map.lattice().n[0], first = std::clamp(g_[0] - origin_[0], 0, e_[0]),
-            last = std::clamp(n + g_[0] - origin_[0], first, e_[0]);  // patch cells along x that are the lattice's own
+  const int n = map.lattice().n[0], n_row = e_[0], first = std::clamp(g_[0] - origin_[0], 0, n_row),
+            last = std::clamp(n + g_[0] - origin_[0], first, n_row);  // patch cells along x that are the lattice's own
+  std::vector<size_t> tiles;  // along x
+  for (const Source& s : source_[0])
+    if (const size_t t = map.place_along(0, s.index).tile; tiles.empty() || tiles.back() != t) tiles.push_back(t);
+  size_t looked_at = SIZE_MAX;
+  bool open = false;
   for (int k = 0; k < e_[2]; ++k)
     for (int j = 0; j < e_[1]; ++j) {
       const CutMap::Place y = map.place_along(1, source_[1][size_t(j)].index), z = map.place_along(2, source_[2][size_t(k)].index);
-      uint8_t* raw = &raw_[size_t((k * e_[1] + j) * e_[0])];
-      uint16_t* bits = &bits_[size_t((k * e_[1] + j) * e_[0])];
-      bool some = map.copy_flags(y, z, origin_[0] + first - g_[0], origin_[0] + last - g_[0], raw + first);
-      for (int i = 0; i < e_[0]; ++i)
-        if (const int from = source_[0][size_t(i)].index; i < first || i >= last) some = map.copy_flags(y, z, from, from + 1, raw + i) || some;
-      for (int i = 0; i < e_[0]; ++i) bits[i] = uint16_t(raw[i] & cell_blocked ? is_blocked : 0);
-      if (!some) continue;
-      for (int i = 0; i < e_[0]; ++i)
+      if (y.tile + z.tile != looked_at) {
+        looked_at = y.tile + z.tile;
+        open = std::all_of(tiles.begin(), tiles.end(), [&](size_t x) { return map.all_open(x + looked_at); });
+      }
+      const size_t row = size_t(k * e_[1] + j), at = row * size_t(n_row);
+      if (open && !written_[row]) continue;
+      written_[row] = !open;
+      uint8_t *raw = &raw_[at], *touched = &touched_[at];
+      uint16_t* bits = &bits_[at];
+      if (open) {
+        std::fill_n(raw, n_row, uint8_t(0)), std::fill_n(touched, n_row, uint8_t(0)), std::fill_n(bits, n_row, uint16_t(0));
+        continue;
+      }
+      map.copy_flags(y, z, origin_[0] + first - g_[0], origin_[0] + last - g_[0], raw + first);
+      for (int i = 0; i < n_row; ++i)
+        if (const int from = source_[0][size_t(i)].index; i < first || i >= last) map.copy_flags(y, z, from, from + 1, raw + i);
+      for (int i = 0; i < n_row; ++i) touched[i] = (raw[i] & cell_blocked) != 0;
+      for (int i = 0; i < n_row; ++i) bits[i] = uint16_t(touched[i] * is_blocked);
+      for (int i = 0; i < n_row; ++i)
         if (raw[i] >= cell_cut) cut_cells_.push_back({i - g_[0], j - g_[1], k - g_[2]});
     }
 }
@@ -195,11 +209,12 @@ bool PatchCuts::meets_walls(const CutMap& map, int d, int i) const {
 }
 
 bool PatchCuts::copy_blocked(uint8_t* out) const {
+  const int n = shape_.n[0];
   uint8_t any = 0;
   for (int k = 0; k < shape_.n[2]; ++k)
-    for (int j = 0; j < shape_.n[1]; ++j, out += shape_.n[0]) {
+    for (int j = 0; j < shape_.n[1]; ++j, out += n) {
       const uint16_t* bits = &bits_[size_t(at(k, j, 0))];
-      for (int i = 0; i < shape_.n[0]; ++i) any |= out[i] = (bits[i] & is_blocked) != 0;
+      for (int i = 0; i < n; ++i) any = uint8_t(any | (out[i] = uint8_t(bits[i] / is_blocked & 1)));
     }
   return any;
 }

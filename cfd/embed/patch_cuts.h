@@ -42,8 +42,9 @@ class PatchCuts {
   const BlockShape& shape() const { return shape_; }
 
  private:
-  static constexpr uint16_t all_cuts = 63, is_blocked = 64, first_narrow = 128, all_narrow = all_cuts * first_narrow;
-  void set_wall(int c, int d, int side, const WallSide& w);
+  static constexpr uint16_t first_cut = 1, is_blocked = 64, first_narrow = 128;
+  /// bit: first_cut or first_narrow; open: see open().
+  void set_wall(int c, uint16_t bit, int d, int side, const WallSide& w, double open = 0);
   void close_orphan(int d, int c);
   void read_flags(const CutMap& map);
   bool meets_walls(const CutMap& map, int d, int i) const;
@@ -63,6 +64,7 @@ class PatchCuts {
   std::vector<uint16_t> bits_;
   std::vector<uint8_t> raw_;       ///< CellFlag bits of the source cells
   std::vector<uint8_t> touched_;   ///< any bit
+  std::vector<uint8_t> written_;   ///< by row along x: raw_, touched_ or bits_ are not all 0
   std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
   std::vector<int32_t> wall_[6];   ///< into walls_, valid where the bit is set
   std::vector<WallSide> walls_;

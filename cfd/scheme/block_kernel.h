@@ -8,6 +8,7 @@
 
 #include "cfd/amr/patch.h"
 #include "cfd/scheme/carbuncle.h"
+#include "cfd/scheme/cut_faces.h"
 #include "cfd/scheme/lane.h"
 #include "cfd/scheme/limiter.h"
 #include "cfd/scheme/positivity.h"
@@ -61,12 +62,14 @@ class BlockKernel {
     for (auto* rows : {&minus_[0], &plus_[0], &minus_[1], &plus_[1], &old_y_, &minus_[2], &plus_[2]})
       rows->assign(size_t(n) * pitch_, 0.0);
     flux_.assign(size_t(n_flux + 1) * pitch_, 0.0);
+    open_.assign(pitch_, 1.0);
     old_z_.resize(size_t(shape.n[1]), Aligned<double>(size_t(n) * pitch_, 0.0));
   }
 
   /// Reads patch (filled, ghosts too); writes change (all rows of the flow's own variables; the others are left alone).
-  void advance(const Patch& patch, const Flow& flow, double dt, BlockChange& change) {
-    patch_ = &patch, flow_ = &flow, change_ = &change;
+  /// cut: of the walls in the patch; nullptr: none.
+  void advance(const Patch& patch, const Flow& flow, double dt, BlockChange& change, const CutFaces* cut = nullptr) {
+    patch_ = &patch, flow_ = &flow, change_ = &change, cut_ = cut;
     for (int d = 0; d < 3; ++d) lambda_[d] = shape_.used[d] ? dt / patch.shape().h[d] : 0;
     change.scaled_cells = 0;
     for (auto& side : change.side) std::fill(side, side + change.rows, 0.0);
@@ -143,6 +146,15 @@ class BlockKernel {
             Lane<T>::store(plus[d] + q * pitch + i, half[q] + T(0.5) * slope[d][q]);
           }
     }
+    if (!cut_) return;
+    cut_->for_each_given(k, j, [&](int i, const double* at_mid, const double* slope) {
+      for (int d = 0; d < 3; ++d)
+        if (wanted[d])
+          for (int q = 0; q < n; ++q) {
+            minus[d][q * pitch + i] = at_mid[q] - 0.5 * slope[d * n + q];
+            plus[d][q * pitch + i] = at_mid[q] + 0.5 * slope[d * n + q];
+          }
+    });
   }
   /// The same with an interface in one of the cells at i; a: their alpha1; order: 0 where they are first order.
   void sharp_faces(const double* a, const ptrdiff_t (&step)[3], const T (&mean)[n], const T (&half)[n],
@@ -251,6 +263,10 @@ class BlockKernel {
       for (int q = 0; q < n_flux; ++q) Lane<T>::store(flux + q * f.pitch + i, F[q]);
       if constexpr (Flow::mixed) Lane<T>::store(flux + n_flux * f.pitch + i, v_face);
     }
+    if (cut_)
+      cut_->for_each_shut(0, k, j, [&](int i) {
+        for (int q = 0; q <= n_flux; ++q) flux[q * f.pitch + i] = 0;
+      });
     for (int q = 0; q < n_flux; ++q) {
       const double* alpha = patch_->row(is_alpha(q) ? Prim::alpha_of(q) : int(Prim::alpha1), k, j);
       const double *F = flux + q * f.pitch, *v_face = flux + n_flux * f.pitch;
@@ -287,14 +303,26 @@ class BlockKernel {
     const int side = 2 * axis + (at == 0 ? 0 : 1);
     const bool booked = (at == 0 || at == end) && (change_->book_sides >> side & 1),
                kept = (at == 0 || at == end) && (change_->keep_sides >> side & 1);
+    const double* open = cut_ && cut_->any_shut(axis, k, j) ? open_faces(axis, k, j) : nullptr;
     for (int i = 0; i < shape_.n[0]; i += w) {
       T F[n_flux];
-      const T v_face = solve<axis>(f, i, F);
+      T v_face = solve<axis>(f, i, F);
+      if (open) {
+        const auto is_open = Lane<T>::load(open + i) > T(0);
+        for (int q = 0; q < n_flux; ++q) F[q] = select(is_open, F[q], T(0));
+        v_face = select(is_open, v_face, T(0));
+      }
       if (booked) book(side, F, std::min(w, shape_.n[0] - i));
       if (kept) keep(side, (axis == 1 ? k : j) * shape_.n[0] + i, F, v_face, std::min(w, shape_.n[0] - i));
       if (at < end) add(above, i, F, v_face, alpha1, T(1));
       if (at > 0) add(below, i, F, v_face, alpha1 - step, T(-1));
     }
+  }
+  /// 1; 0 where cut_ shuts the face.
+  const double* open_faces(int axis, int k, int j) {
+    std::fill(open_.begin(), open_.end(), 1.0);
+    cut_->for_each_shut(axis, k, j, [&](int i) { open_[size_t(i)] = 0; });
+    return open_.data();
   }
   void add(double* const (&out)[n_flux], int i, const T (&F)[n_flux], T v_face, const double* alpha1, T sign) const {
     const ptrdiff_t variable = Flow::materials > 2 ? patch_->stride_variable() : 0;
@@ -328,6 +356,8 @@ class BlockKernel {
   const Patch* patch_ = nullptr;
   const Flow* flow_ = nullptr;
   BlockChange* change_ = nullptr;
+  const CutFaces* cut_ = nullptr;
+  Aligned<double> open_;  ///< open_faces()
   Aligned<double> minus_[3], plus_[3], old_y_, flux_;  ///< face states of one row: [variable][i]
   std::vector<Aligned<double>> old_z_;                 ///< upper z faces of the plane before, by j
 };

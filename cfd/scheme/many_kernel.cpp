@@ -18,8 +18,8 @@ class Kernel final : public ManyKernel {
     else
       block_.emplace(shape);
   }
-  void advance(const Patch& patch, double dt, BlockChange& change) override {
-    block_->advance(patch, flow_, dt, change);
+  void advance(const Patch& patch, double dt, BlockChange& change, const CutFaces* cut) override {
+    block_->advance(patch, flow_, dt, change, cut);
   }
   void advance_radial(const Patch& patch, double dt, unsigned mirror, BlockChange& change) override {
     shells_->advance(patch, flow_, dt, mirror, change);

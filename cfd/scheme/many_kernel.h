@@ -13,7 +13,7 @@ namespace bw::cfd {
 class ManyKernel {
  public:
   virtual ~ManyKernel() = default;
-  virtual void advance(const Patch& patch, double dt, BlockChange& change) = 0;
+  virtual void advance(const Patch& patch, double dt, BlockChange& change, const CutFaces* cut) = 0;
   /// Of shells; mirror as in ShellRow::fill.
   virtual void advance_radial(const Patch& patch, double dt, unsigned mirror, BlockChange& change) = 0;
 };

@@ -92,10 +92,11 @@ struct OneBlock {
   }
   void advance(double dt) {
     fill_patch();
-    kernel.advance(patch, flow, dt, change);
+    kernel.advance(patch, flow, dt, change, cuts.any() ? &cut.prepare(patch, cuts, flow, Eos{mix}, dt) : nullptr);
     exchange = {};
-    if (cuts.any()) cut.correct(patch, cuts, flow, Eos{mix}, dt, change, exchange);
+    if (cuts.any()) cut.correct(change, exchange);
     for_cells([&](int k, int j, int i) {
+      if (blocked(k, j, i)) return;
       for (int q = 0; q < Cons::count; ++q) u[shape.at(k, j, i)][size_t(q)] += change.row(q, k, j)[i];
     });
   }

@@ -31,16 +31,17 @@ struct Windows {
   coupling::Loads step(double dt, const std::vector<Vec3>& x_end) {
     block.cuts.gather(walls.map(), walls.rules(), {});
     block.fill_patch();
-    block.kernel.advance(block.patch, block.flow, dt, block.change);
+    block.kernel.advance(block.patch, block.flow, dt, block.change, &scheme->prepare(block.patch, block.cuts, dt));
     exchange = {};
     links.clear();
-    scheme->correct(block.patch, block.cuts, dt, block.change, exchange, walls.conservative() ? &links : nullptr);
+    scheme->correct(block.change, exchange, walls.conservative() ? &links : nullptr);
     const auto r = walls.probes_of({});
     for (size_t i = r.first; i < r.last; ++i) {
       const Probe& p = walls.probes()[i];
       walls.set_load(i, scheme->load(p.cell, p.x + 0.5 * dt * p.v, p.n, p.v));
     }
     block.for_cells([&](int k, int j, int i) {
+      if (block.blocked(k, j, i)) return;
       for (int q = 0; q < Cons::count; ++q) block.u[block.shape.at(k, j, i)][size_t(q)] += block.change.row(q, k, j)[i];
     });
     if (walls.conservative()) walls.set_links(links, dt);
