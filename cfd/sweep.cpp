@@ -330,11 +330,11 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
       const Place at = place_of(f.cell);
       for (int q = 0; q < s.rows(); ++q) {
         s.block(at.block, q)[at.cell] = f.U[q];
+        s.spare(at.block)[size_t(q) * size_t(shape.cells()) + at.cell] = f.U[q];  // see UpdateInput::others_hold
         swept.made[q] += f.U[q] * shape.cell_volume();
       }
       ++swept.fresh;
       touched.insert(at.block);
-      gas_before_[size_t(at.block)] = 0;
       note(f.U, s.info[size_t(at.block)]);
     }
     walls_->accept(layer);

@@ -16,6 +16,7 @@
 // Two other treatments (WallTreatment) take the ghost value and the state beyond the cell face from the mirror instead.
 // Both sides of a thin wall do this on their own; what is not conserved by it is booked in WallExchange.
 #pragma once
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -193,14 +194,11 @@ class CutKernel {
 
   /// Do the walls cut from cell c agree with the first one seen?
   bool walls_agree(int c, const Vec3*& first) const {
-    for (int d = 0; d < 3; ++d) {
-      if (!shape_.used[size_t(d)]) continue;
-      for (int side = 0; side < 2; ++side) {
-        if (!cuts_->cut(c, d, side)) continue;
-        const Vec3& n = cuts_->wall(c, d, side).n;
-        if (!first) first = &n;
-        if (dot(*first, n) < pocket_cosine) return false;
-      }
+    for (unsigned sides = cuts_->cut_sides(c); sides != 0; sides &= sides - 1) {
+      const int side = std::countr_zero(sides);
+      const Vec3& n = cuts_->wall(c, side / 2, side % 2).n;
+      if (!first) first = &n;
+      if (dot(*first, n) < pocket_cosine) return false;
     }
     return true;
   }

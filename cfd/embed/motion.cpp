@@ -28,15 +28,27 @@ bool passes(const Triangle& old, const Triangle& now, const Vec3& q) {
          dot(cross(a - q, b - q), n) >= hair;
 }
 
-void add_swept(const Triangle& old, const Triangle& now, const Lattice& g, std::vector<Index3>& out) {
+/// Is a centre in the box of all that face q sweeps? Most faces are smaller than a cell.
+bool may_pass_centre(const coupling::WetSurface& surface, const std::vector<Vec3>& x_before,
+                     const std::array<int32_t, 4>& q, const Centres& centres) {
+  for (int d = 0; d < 3; ++d) {
+    double lower = surface.x[size_t(q[0])][d], upper = lower;
+    for (const int32_t node : q)
+      for (const double x : {surface.x[size_t(node)][d], x_before[size_t(node)][d]})
+        lower = std::min(lower, x), upper = std::max(upper, x);
+    if (centres.between(d, lower, upper).empty()) return false;
+  }
+  return true;
+}
+
+void add_swept(const Triangle& old, const Triangle& now, const Lattice& g, const Centres& centres,
+               std::vector<Index3>& out) {
   int first[3], last[3];
   for (int d = 0; d < 3; ++d) {
     const auto [lo, hi] = std::minmax({old.a[d], old.b[d], old.c[d], now.a[d], now.b[d], now.c[d]});
-    constexpr double hair = 1e-9;
-    const double n = g.n[d];
-    first[d] = int(std::clamp(std::ceil((lo - g.lower[d]) / g.h[d] - 0.5 - hair), 0.0, n));
-    last[d] = int(std::clamp(std::floor((hi - g.lower[d]) / g.h[d] - 0.5 + hair), -1.0, n - 1));
-    if (first[d] > last[d]) return;
+    const Centres::Range r = centres.between(d, lo, hi);
+    if (r.empty()) return;
+    first[d] = r.first, last[d] = r.last;
   }
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
@@ -50,10 +62,12 @@ std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::
                                 const Lattice& lattice) {
   constexpr int64_t chunk = 4096;
   const int64_t faces = int64_t(surface.quads.size()), chunks = (faces + chunk - 1) / chunk;
+  const Centres centres(lattice);
   std::vector<std::vector<Index3>> part(static_cast<size_t>(chunks));
   parallel_for_dynamic(chunks, [&](int64_t p) {
     for (int64_t f = p * chunk; f < std::min(faces, (p + 1) * chunk); ++f) {
       const auto& q = surface.quads[size_t(f)];
+      if (!may_pass_centre(surface, x_before, q, centres)) continue;
       Triangle old[4], now[4];
       int n = 0, m = 0;
       for_each_triangle(x_before, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) {
@@ -62,7 +76,7 @@ std::vector<Index3> swept_cells(const coupling::WetSurface& surface, const std::
       for_each_triangle(surface.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int, int) {
         now[m++] = {a, b, c};
       });
-      for (int i = 0; i < n; ++i) add_swept(old[i], now[i], lattice, part[size_t(p)]);
+      for (int i = 0; i < n; ++i) add_swept(old[i], now[i], lattice, centres, part[size_t(p)]);
     }
   });
   std::vector<Index3> cells;

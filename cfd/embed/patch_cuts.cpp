@@ -25,7 +25,7 @@ void PatchCuts::set_wall(int c, uint16_t bit, int d, int side, const WallSide& w
   touched_[size_t(c)] = 1;
   written_[size_t(c / e_[0])] = 1;
   wall_[2 * d + side][size_t(c)] = int32_t(walls_.size());
-  walls_.push_back(w);
+  walls_.push_back(&w);
   open_.push_back(open);
 }
 
@@ -76,15 +76,15 @@ void PatchCuts::gather_links(const CutMap& map, int d, const Index3& c, int at) 
     link = map.link(from, d);
   }
   if (!link) return;
-  WallSide below = swap ? link->above : link->below, above = swap ? link->below : link->above;
-  for (int e = 0; e < 3; ++e)
-    if (reflected[e])
-      for (WallSide* w : {&below, &above}) {
-        w->n[e] = -w->n[e];
-        w->v[e] = -w->v[e];
-      }
-  set_wall(at, first_cut, d, 1, below);
-  set_wall(at + step_[d], first_cut, d, 0, above);
+  const auto seen = [&](const WallSide& w) -> const WallSide& {
+    if (!reflected[0] && !reflected[1] && !reflected[2]) return w;
+    WallSide& image = own_.emplace_back(w);
+    for (int e = 0; e < 3; ++e)
+      if (reflected[e]) image.n[e] = -image.n[e], image.v[e] = -image.v[e];
+    return image;
+  };
+  set_wall(at, first_cut, d, 1, seen(swap ? link->above : link->below));
+  set_wall(at + step_[d], first_cut, d, 0, seen(swap ? link->below : link->above));
 }
 
 /// No face between metal and fluid: an open surface ends here, or a cell is sealed. A resting wall half way.
@@ -93,8 +93,9 @@ void PatchCuts::close_orphan(int d, int c) {
   if (blocked(c) == blocked(u) || cut(c, d, 1)) return;
   Vec3 n;
   n[d] = blocked(c) ? 1 : -1;
-  set_wall(c, first_cut, d, 1, {0.5, n, {}, -1});
-  set_wall(u, first_cut, d, 0, {0.5, n, {}, -1});
+  const WallSide& w = own_.emplace_back(WallSide{0.5, n, {}, -1});
+  set_wall(c, first_cut, d, 1, w);
+  set_wall(u, first_cut, d, 0, w);
   ++orphans_;
 }
 
@@ -102,6 +103,7 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   rules_ = rules;
   origin_ = origin;
   walls_.clear();
+  own_.clear();
   open_.clear();
   orphans_ = 0;
   Index3 lower = origin, upper;

@@ -2,6 +2,7 @@
 // The walls in one patch (a block and its ghosts), looked up once for all kernels of a step.
 #pragma once
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "cfd/amr/patch.h"
@@ -28,13 +29,16 @@ class PatchCuts {
   bool blocked(int c) const { return bits_[size_t(c)] & is_blocked; }
   /// Is the link of the open cell c on this side (0 lower, 1 upper) cut? Every link to a blocked neighbour is.
   bool cut(int c, int d, int side) const { return bits_[size_t(c)] & (1u << (2 * d + side)); }
+  /// Bits 2d + side of the cut ones.
+  unsigned cut_sides(int c) const { return bits_[size_t(c)] & (is_blocked - 1); }
   /// Is a part of the cell face of this link open, a part blocked by a wall? The link itself may be cut or not.
   bool narrow(int c, int d, int side) const { return bits_[size_t(c)] & (first_narrow << (2 * d + side)); }
   /// That part, where narrow().
   double open(int c, int d, int side) const { return open_[size_t(wall_[2 * d + side][size_t(c)])]; }
   bool touched(int c) const { return touched_[size_t(c)]; }
   const uint8_t* touched() const { return touched_.data(); }  ///< [size()]
-  const WallSide& wall(int c, int d, int side) const { return walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
+  /// Until the map that it was gathered from changes.
+  const WallSide& wall(int c, int d, int side) const { return *walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
   bool any() const { return any_; }         ///< anything but open fluid?
   int orphans() const { return orphans_; }  ///< links into metal that no face cuts (open surfaces)
   /// Is a cell of the block itself blocked? [k][j][i], 1 or 0. Is any?
@@ -67,7 +71,8 @@ class PatchCuts {
   std::vector<uint8_t> written_;   ///< by row along x: raw_, touched_ or bits_ are not all 0
   std::vector<Index3> cut_cells_;  ///< with a cut link to an upper neighbour
   std::vector<int32_t> wall_[6];   ///< into walls_, valid where the bit is set
-  std::vector<WallSide> walls_;
+  std::vector<const WallSide*> walls_;  ///< of the map, or:
+  std::deque<WallSide> own_;            ///< reflected ones, and those that no face makes
   std::vector<double> open_;  ///< [walls_]
   bool any_ = false;
   int orphans_ = 0;

@@ -22,17 +22,6 @@ struct Crossing {
   bool thin;
 };
 
-/// Centres c with lower <= c <= upper (a hair more).
-struct Range {
-  int first, last;
-};
-Range centres_between(const Lattice& g, int d, double lower, double upper) {
-  const double a = (lower - g.lower[d]) / g.h[d] - 0.5, b = (upper - g.lower[d]) / g.h[d] - 0.5;
-  constexpr double hair = 1e-9;
-  const double n = g.n[d];
-  return {int(std::clamp(std::ceil(a - hair), 0.0, n)), int(std::clamp(std::floor(b + hair), -1.0, n - 1))};
-}
-
 struct Face {
   const coupling::WetSurface& s;
   const std::array<int32_t, 4>& q;
@@ -47,10 +36,9 @@ class LineScan {
   LineScan(const Lattice& g, int d, std::vector<Crossing>& out)
       : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
 
-  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner) const {
-    const Range ru = centres_between(g_, u_, std::min({a[u_], b[u_], c[u_]}), std::max({a[u_], b[u_], c[u_]}));
-    if (ru.first > ru.last) return;
-    const Range rv = centres_between(g_, v_, std::min({a[v_], b[v_], c[v_]}), std::max({a[v_], b[v_], c[v_]}));
+  /// within: centres between the triangle's extremes, by axis.
+  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, const Centres::Range (&within)[3]) const {
+    const Centres::Range ru = within[u_], rv = within[v_];
     for (int iv = rv.first; iv <= rv.last; ++iv)
       for (int iu = ru.first; iu <= ru.last; ++iu) {
         const double qu = g_.centre(u_, iu), qv = g_.centre(v_, iv);
@@ -113,16 +101,29 @@ class LineScan {
   std::vector<Crossing>& out_;
 };
 
+/// Of one chunk of faces, by direction.
+using Crossings = std::array<std::vector<Crossing>, 3>;
+
 /// Of faces [first, last), unsorted.
-std::vector<Crossing> crossings(const coupling::WetSurface& s, const Lattice& g, int d, size_t first, size_t last) {
-  std::vector<Crossing> out;
-  const LineScan lines(g, d, out);
+Crossings crossings(const coupling::WetSurface& s, const Lattice& g, size_t first, size_t last) {
+  Crossings out;
+  const Centres centres(g);
+  const LineScan lines[3] = {{g, 0, out[0]}, {g, 1, out[1]}, {g, 2, out[2]}};
   for (size_t f = first; f < last; ++f) {
     const auto& q = s.quads[f];
     const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
                     !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
-    for_each_triangle(
-        s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) { lines(face, a, b, c, corner); });
+    for_each_triangle(s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) {
+      Centres::Range within[3];
+      int empty = 0;
+      for (int d = 0; d < 3; ++d) {
+        within[d] = centres.between(d, std::min({a[d], b[d], c[d]}), std::max({a[d], b[d], c[d]}));
+        empty += within[d].empty();
+      }
+      if (empty > 1) return;  // a line needs a centre along both other axes
+      for (int d = 0; d < 3; ++d)
+        if (g.active(d) || d == 0) lines[d](face, a, b, c, corner, within);
+    });
   }
   return out;
 }
@@ -169,17 +170,13 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
   std::vector<Crossing> found[3];
   constexpr size_t chunk = 4096;
   const size_t faces = surface.quads.size(), chunks = (faces + chunk - 1) / chunk;
-  std::vector<std::vector<Crossing>> part(3 * chunks);
-  parallel_for_dynamic(int64_t(part.size()), [&](int64_t i) {
-    const int d = int(size_t(i) / chunks);
-    const size_t first = size_t(i) % chunks * chunk;
-    if (lattice.active(d) || d == 0) part[size_t(i)] = crossings(surface, lattice, d, first, std::min(first + chunk, faces));
+  std::vector<Crossings> part(chunks);
+  parallel_for_dynamic(int64_t(chunks), [&](int64_t i) {
+    const size_t first = size_t(i) * chunk;
+    part[size_t(i)] = crossings(surface, lattice, first, std::min(first + chunk, faces));
   });
   parallel_for_dynamic(3, [&](int64_t d) {
-    for (size_t i = 0; i < chunks; ++i) {
-      const auto& p = part[size_t(d) * chunks + i];
-      found[d].insert(found[d].end(), p.begin(), p.end());
-    }
+    for (const Crossings& p : part) found[d].insert(found[d].end(), p[size_t(d)].begin(), p[size_t(d)].end());
     sort(found[d]);
   });
   auto line_of = [](const Crossing& x) { return x.line; };
