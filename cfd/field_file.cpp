@@ -72,7 +72,7 @@ void fill(const Model& m, int b, int across, size_t first, LevelFields& out) {
 
 void write_field_file(const std::string& path, const Case& cs, const Model& m) {
   const Forest& forest = m.forest;
-  const int materials = m.setup.medium.count(), fractions = materials == 1 ? 0 : materials == 2 ? 1 : materials;
+  const int fractions = m.setup.medium.told_fractions();
   std::vector<VtkLevel> levels(size_t(forest.levels()) + 1);
   std::vector<LevelFields> fields(levels.size());
   int top = 0;

@@ -9,6 +9,9 @@
 
 namespace bw::cfd {
 
+/// Volume fractions that files tell, of the first materials: of two the first, of more all.
+inline int told_fractions(size_t materials) { return materials == 1 ? 0 : materials == 2 ? 1 : int(materials); }
+
 struct Medium {
   Medium() = default;
   /// One material alone is its own twin, with alpha1 exactly 1 everywhere.
@@ -25,6 +28,7 @@ struct Medium {
     }
   }
   int count() const { return int(names.size()); }
+  int told_fractions() const { return cfd::told_fractions(names.size()); }
   /// Variables of a cell.
   int rows() const { return Cons::rows(count()); }
   /// kg/m^3 of all materials.

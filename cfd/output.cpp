@@ -152,19 +152,22 @@ void Output::restore(const Model& m, const Restored& from) {
   updates_before_ = updates(m);
 }
 
-Output::PointValues Output::at(const Model& m, const Vec3& x) const {
+FlowAt Output::at(const Model& m, const Vec3& x) const {
   const Forest::Cell c = m.forest.find(x);
-  double values[6] = {};
+  double values[5 + most_materials] = {};
   if (c.block >= 0) {
     double U[Cons::most], W[Prim::most];
     const size_t cell = m.forest.shape().at(c.k, c.j, c.i);
     for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(c.block, q)[cell];
     std::visit([&](const auto& pair) { pair.to_primitive(U, W, m.setup.medium.floors); }, m.setup.medium.mixture);
-    values[0] = U[0] + U[1], values[1] = W[Prim::p], values[2] = W[Prim::alpha1];
-    for (int d = 0; d < 3; ++d) values[3 + d] = W[Prim::v + d];
+    values[0] = m.setup.medium.density(U), values[1] = W[Prim::p];
+    for (int d = 0; d < 3; ++d) values[2 + d] = W[Prim::v + d];
+    for (int k = 0; k < std::max(1, m.setup.medium.told_fractions()); ++k) values[5 + k] = W[Prim::alpha(k)];
   }
   if (m.forest.comm().size() > 1) m.forest.comm().sum(values);
-  return {values[0], values[1], values[2], {values[3], values[4], values[5]}};
+  FlowAt w{values[0], values[1], {values[2], values[3], values[4]}};
+  std::copy_n(values + 5, int(most_materials), w.alpha);
+  return w;
 }
 
 double Output::next_time(double t) const {
@@ -238,11 +241,15 @@ void Output::write_lines(const Model& m) {
     std::optional<History> table;
     std::vector<History::Column> columns{{"x", "m"}, {"y", "m"}, {"z", "m"}, {"density", "kg/m^3"}, {"vx", "m/s"}, {"vy", "m/s"}, {"vz", "m/s"},
                                          {"pressure", "Pa"}, {"alpha1", "1"}, {"t", "s"}};
+    const int fractions = m.setup.medium.told_fractions();
+    for (int k = 1; k < fractions; ++k) columns.push_back({fmt::format("alpha{}", k + 1), "1"});
     if (root_) table.emplace(fmt::format("{}/fluid_line_{}.csv", case_.run.output.directory, line.name), columns);
     for (int i = 0; i < n; ++i) {
       const Vec3 x = line.from + ((i + 0.5) / n) * along;
-      const PointValues w = at(m, x);
-      if (table) table->row({x.x, x.y, x.z, w.rho, w.v.x, w.v.y, w.v.z, w.p, w.alpha1, m.state.t});
+      const FlowAt w = at(m, x);
+      std::vector<double> row{x.x, x.y, x.z, w.rho, w.v.x, w.v.y, w.v.z, w.p, w.alpha[0], m.state.t};
+      if (fractions > 1) row.insert(row.end(), w.alpha + 1, w.alpha + fractions);
+      if (table) table->row(row);
     }
   }
 }

@@ -29,11 +29,8 @@ class Output {
   void finish(Model& m, const Books& books, const std::string& status, const std::string& message);
 
  private:
-  struct PointValues {
-    double rho = 0, p = 0, alpha1 = 0;
-    Vec3 v;
-  };
-  PointValues at(const Model& m, const Vec3& x) const;
+  /// The cell at x.
+  FlowAt at(const Model& m, const Vec3& x) const;
   void write_row(const Model& m, const Books& books);
   void open_free_bodies(const Model& m, const int64_t* rows);
   void write_free_bodies(const Model& m);

@@ -124,25 +124,28 @@ std::vector<VtkField> Raster::fields_of(const Model& m) {
   const size_t n = sampler_.size();
   std::vector<VtkField> fields;
   if (values_) {
-    std::vector<double> all(6 * n);
+    const size_t fractions = size_t(m.setup.medium.told_fractions()), width = 5 + fractions;
+    std::vector<double> all(width * n);
     fit(m);
     sampler_.sample(
         m, [](int) { return false; },
         [&](size_t i, const FlowAt* flow) {
           const FlowAt w = flow ? *flow : FlowAt{};
-          const double values[6] = {w.rho, w.p, w.alpha1, w.v.x, w.v.y, w.v.z};
-          std::copy_n(values, 6, all.begin() + ptrdiff_t(6 * i));
+          double* q = &all[width * i];
+          q[0] = w.rho, q[1] = w.p, q[2] = w.v.x, q[3] = w.v.y, q[4] = w.v.z;
+          std::copy_n(w.alpha, fractions, q + 5);
         });
     m.forest.comm().sum(all);
-    frame_.rho.resize(n), frame_.p.resize(n), frame_.alpha.resize(n), frame_.v.resize(n);
+    frame_.rho.resize(n), frame_.p.resize(n), frame_.v.resize(n), frame_.alpha.assign(fractions, std::vector<double>(n));
     for (size_t i = 0; i < n; ++i) {
-      const double* q = &all[6 * i];
-      frame_.rho[i] = q[0], frame_.p[i] = q[1], frame_.alpha[i] = q[2], frame_.v[i] = {q[3], q[4], q[5]};
+      const double* q = &all[width * i];
+      frame_.rho[i] = q[0], frame_.p[i] = q[1], frame_.v[i] = {q[2], q[3], q[4]};
+      for (size_t k = 0; k < fractions; ++k) frame_.alpha[k][i] = q[5 + k];
     }
     fields = {VtkField::scalars("density", frame_.rho), VtkField::scalars("pressure", frame_.p),
               VtkField::vectors("velocity", frame_.v)};
-    if (case_.fluid.material.size() == 2)
-      fields.push_back(VtkField::scalars("alpha_" + case_.fluid.material[0].name, frame_.alpha));
+    for (size_t k = 0; k < fractions; ++k)
+      fields.push_back(VtkField::scalars("alpha_" + case_.fluid.material[k].name, frame_.alpha[k]));
   }
   if (maps_) {
     share_waves(m.forest.comm());

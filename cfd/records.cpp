@@ -18,6 +18,7 @@ std::vector<History::Column> columns_of(const Case& cs) {
     c.push_back({g.name + " speed", "m/s"});
     c.push_back({g.name + " overpressure", "Pa"});
     c.push_back({g.name + " dynamic pressure", "Pa"});
+    for (int k = 0; k < told_fractions(cs.fluid.material.size()); ++k) c.push_back({g.name + " " + cs.fluid.material[size_t(k)].name, "1"});
   }
   return c;
 }
@@ -63,14 +64,15 @@ void Records::step(Model& m) {
 }
 
 void Records::step_gauges(const Model& m) {
-  constexpr size_t width = 5;
-  std::vector<double> values(width * gauge_.size());  // rho, p, alpha, speed, 1 where there is fluid
+  const size_t fractions = size_t(m.setup.medium.told_fractions()), width = 4 + fractions;
+  std::vector<double> values(width * gauge_.size());  // rho, p, 1 where there is fluid, speed, volume fractions
   points_.sample(
       m, [](int) { return false; },
       [&](size_t i, const FlowAt* flow) {
         if (!flow) return;
-        const double v[width] = {flow->rho, flow->p, flow->alpha1, norm(flow->v), 1};
-        std::copy_n(v, width, values.begin() + ptrdiff_t(width * i));
+        double* v = &values[width * i];
+        v[0] = flow->rho, v[1] = flow->p, v[2] = 1, v[3] = norm(flow->v);
+        std::copy_n(flow->alpha, fractions, v + 4);
       });
   m.forest.comm().sum(values);
   const double t = m.state.t, dt = t_ < 0 ? 0 : t - t_;
@@ -78,7 +80,7 @@ void Records::step_gauges(const Model& m) {
   for (size_t i = 0; i < gauge_.size(); ++i) {
     const double* v = &values[width * i];
     Gauge& g = gauge_[i];
-    const bool fluid = v[4] > 0;
+    const bool fluid = v[2] > 0;
     const double q = 0.5 * v[0] * v[3] * v[3];
     if (t_ < 0)
       g.wave.begin(fluid ? v[1] : case_.coupling.reference_pressure);
@@ -89,6 +91,7 @@ void Records::step_gauges(const Model& m) {
     if (q > g.peak_q) g.peak_q = q, g.t_peak_q = t;
     if (!fluid) g.in_metal += dt;
     for (const double value : {g.wave.p0 + g.wave.now, g.wave.impulse, v[0], v[3], g.wave.now, q}) row.push_back(value);
+    row.insert(row.end(), v + 4, v + width);
   }
   if (table_) table_->row(row);
 }

@@ -52,7 +52,8 @@ class Raster {
   };
   std::vector<Calm> calm_;  ///< [group]
   struct Frame {
-    std::vector<double> rho, p, alpha, peak, impulse, positive, arrival, duration;
+    std::vector<double> rho, p, peak, impulse, positive, arrival, duration;
+    std::vector<std::vector<double>> alpha;
     std::vector<Vec3> v;
   } frame_;
 };

@@ -85,7 +85,9 @@ bool Sampler::value(const Model& m, const Group& group, const Place& at, const S
     if (m.walls->map().blocked(b) || (a != b && m.walls->map().is_cut(step[d] > 0 ? a : b, d)))
       step[d] = 0, share[d] = 0;
   }
-  double total = 0, sum[6] = {};
+  const int fractions = m.setup.medium.told_fractions();
+  double total = 0;
+  FlowAt sum;
   for (int corner = 0; corner < 8; ++corner) {
     double weight = 1;
     int c[3];
@@ -106,12 +108,12 @@ bool Sampler::value(const Model& m, const Group& group, const Place& at, const S
     total += weight;
     double rho = W[Prim::arho1] + W[Prim::arho2];
     for (int k = 2; k < m.setup.medium.count(); ++k) rho += W[Prim::arho(k)];
-    const double values[6] = {
-        rho, W[Prim::p], W[Prim::alpha1], W[Prim::v], W[Prim::v_y], W[Prim::v_z]};
-    for (int q = 0; q < 6; ++q) sum[q] += weight * values[q];
+    sum.rho += weight * rho, sum.p += weight * W[Prim::p];
+    for (int d = 0; d < 3; ++d) sum.v[d] += weight * W[Prim::v + d];
+    for (int k = 0; k < fractions; ++k) sum.alpha[k] += weight * W[Prim::alpha(k)];
   }
-  for (double& q : sum) q /= total;
-  flow = {sum[0], sum[1], sum[2], {sum[3], sum[4], sum[5]}};
+  flow = {sum.rho / total, sum.p / total, sum.v / total};
+  for (int k = 0; k < fractions; ++k) flow.alpha[k] = sum.alpha[k] / total;
   return true;
 }
 

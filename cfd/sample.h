@@ -11,8 +11,9 @@
 namespace bw::cfd {
 
 struct FlowAt {
-  double rho = 0, p = 0, alpha1 = 0;
+  double rho = 0, p = 0;
   Vec3 v;
+  double alpha[most_materials] = {};  ///< Medium::told_fractions() of them
 };
 
 class Sampler {

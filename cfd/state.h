@@ -14,7 +14,8 @@ namespace bw::cfd {
 
 /// What is known of a block without looking at its cells.
 struct BlockInfo {
-  int32_t material = 0;        ///< 1, 2 ...: every cell holds this material alone; 0: mixed
+  static constexpr int32_t no_fluid = -1;
+  int32_t material = 0;        ///< 1, 2 ...: every open cell holds this material alone; 0: mixed; no_fluid: none is open
   int32_t at_rest = 0;         ///< all cells have the same bits and no momentum
   double rate = 0;             ///< max over cells of sum_d (|v_d| + c)/h_d [1/s]
   double p_max = 0;            ///< Pa, largest of its cells

@@ -15,14 +15,21 @@ namespace {
 
 constexpr int most_tries = 8, told_repeats = 5;
 
+void refresh(const Model& m, Books& books, const std::vector<int>& changed) {
+  Timed timed("sums");
+  books.refresh(m, changed);
+}
+
 /// The walls have moved or are new: cells that they freed get a state, and what changed hands is booked. changed: blocks
 /// whose sums have changed already.
 void follow_walls(Model& m, Sweep& sweep, Books& books, std::vector<int> changed = {}) {
-  Timed timed("covered and uncovered cells");
-  sweep.refill(m.state, changed, books.swept);
+  {
+    Timed timed("covered and uncovered cells");
+    sweep.refill(m.state, changed, books.swept);
+  }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  books.refresh(m, changed);
+  refresh(m, books, changed);
 }
 
 /// Walls in place for a window of dt, which is shortened until they go no further than half a cell.
@@ -98,7 +105,7 @@ double step(Model& m, Sweep& sweep, Books& books, double dt, const WallMotion* m
   if (m.setup.afterburn) m.setup.afterburn->share = share;
   books.seconds_between_levels = sweep.seconds_between_levels();
   if (!m.walls) {
-    books.refresh(m, sweep.active());
+    refresh(m, books, sweep.active());
   } else {
     const std::vector<Vec3> v = m.walls->surface().v;
     if (!mean) sweep.measure_loads(m.state);

@@ -438,6 +438,8 @@ void Sweep::commit(State& s) {
     s.info[size_t(b)] = result_[size_t(b)].info;
     gas_before_[size_t(b)] = int8_t(result_[size_t(b)].gas);
   }
+  for (int b = 0; walls_ && !walls_->cut() && b < forest_.local_blocks(); ++b)
+    if (BlockInfo& info = s.info[size_t(b)]; near_[size_t(b)] == metal) info.material = BlockInfo::no_fluid, info.rate = info.p_max = 0;
   if (walls_ && walls_->cut()) walls_->cut()->commit();
   for (int b = 0; b < forest_.local_blocks(); ++b) s.booked[size_t(b)] += pending_[size_t(b)];
   s.t = t_ + dt_;

@@ -41,9 +41,9 @@ GhostSource Gather::source(int block, int d, int index) const {
 int Gather::material(int block) const {
   const BlockShape& s = forest_.shape();
   const int m = state_.info[size_t(block)].material;
-  if (m == 0) return 0;
+  if (m <= 0) return 0;
   for (int b : forest_.around(block))
-    if (state_.info[size_t(b)].material != m) return 0;
+    if (const int other = state_.info[size_t(b)].material; other != m && other != BlockInfo::no_fluid) return 0;
   for (int d = 0; d < 3; ++d)
     for (int upper = 0; upper < 2; ++upper) {
       const BoundarySide& side = boundary_.side[2 * d + upper];

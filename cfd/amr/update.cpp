@@ -262,11 +262,13 @@ void describe_block(const BlockShape& s, int materials, const double* U, bool wh
     info.rate = std::max(info.rate, e.rate[l]);
     info.p_max = std::max(info.p_max, e.p_max[l]);
   }
-  info.material = 0;
+  info.material = BlockInfo::no_fluid;
   for (int m = 0; m < (materials > 2 ? materials : 1); ++m) {
     double low = 2, high = -1;
     for (int l = 0; l < Pack::size; ++l)
       low = std::min(low, e.alpha[m].min[l]), high = std::max(high, e.alpha[m].max[l]);
+    if (low > high) continue;
+    info.material = std::max(info.material, 0);
     if (low == 1 && high == 1) info.material = m + 1;
     if (materials <= 2 && low == 0 && high == 0) info.material = 2;
   }

@@ -34,6 +34,7 @@ struct WallSide {
 struct OnFace {
   int32_t corner = 0;
   double b = 0, c = 0;
+  friend bool operator==(const OnFace&, const OnFace&) = default;
 };
 /// A cut link between a cell and its upper neighbour: the crossing next to either.
 struct CutLink {

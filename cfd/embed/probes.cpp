@@ -58,24 +58,55 @@ bool find_cell(const CutMap& map, const Vec3& x, const Vec3& n, Index3& found) {
 
 }  // namespace
 
-std::vector<Probe> find_probes(const coupling::WetSurface& surface, const CutMap& map) {
+void find_probes(const coupling::WetSurface& surface, const CutMap& map, size_t groups,
+                 const std::function<size_t(const Index3&)>& group_of, std::vector<Probe>& probes,
+                 std::vector<size_t>& first) {
   const size_t faces = surface.quads.size();
-  std::vector<Probe> front(faces), back(faces);
+  const bool thin = std::any_of(surface.flags.begin(), surface.flags.end(), [](int32_t f) { return f & coupling::face_thin; });
+  const size_t sides = thin ? 2 : 1;
+  struct Seen {
+    Index3 cell;
+    int32_t group = -1;
+  };
+  std::vector<Seen> seen(sides * faces);
   parallel_for(int64_t(faces), [&](int64_t i) {
     const size_t f = size_t(i);
     const auto& q = surface.quads[f];
     const Vec3 area = coupling::area_vector(surface.x, q);
     const double size = norm(area);
     if (size == 0) return;
-    const Vec3 x = coupling::face_mean(surface.x, q), v = coupling::face_mean(surface.v, q), n = area / size;
-    if (Index3 c; find_cell(map, x, n, c)) front[f] = {int32_t(f), 1, c, x, n, v};
-    if (!surface.flags.empty() && surface.flags[f] & coupling::face_thin)
-      if (Index3 c; find_cell(map, x, -n, c)) back[f] = {int32_t(f), -1, c, x, -n, v};
+    const Vec3 x = coupling::face_mean(surface.x, q), n = area / size;
+    for (size_t side = 0; side < sides; ++side) {
+      if (side == 1 && !(surface.flags[f] & coupling::face_thin)) continue;
+      Seen& s = seen[sides * f + side];
+      if (find_cell(map, x, side ? -n : n, s.cell)) s.group = int32_t(group_of(s.cell));
+    }
   });
+  first.assign(groups + 1, 0);
+  for (const Seen& s : seen)
+    if (s.group >= 0) ++first[size_t(s.group) + 1];
+  for (size_t g = 0; g < groups; ++g) first[g + 1] += first[g];
+  std::vector<size_t> next(first.begin(), first.end() - 1);
+  std::vector<size_t> place(seen.size());
+  for (size_t i = 0; i < seen.size(); ++i)
+    if (seen[i].group >= 0) place[i] = next[size_t(seen[i].group)]++;
+  probes.resize(first.back());
+  parallel_for(int64_t(seen.size()), [&](int64_t i) {
+    const Seen& s = seen[size_t(i)];
+    if (s.group < 0) return;
+    const size_t f = size_t(i) / sides;
+    const auto& q = surface.quads[f];
+    const int32_t side = size_t(i) % sides ? -1 : 1;
+    const Vec3 area = coupling::area_vector(surface.x, q);
+    probes[place[size_t(i)]] = {int32_t(f), side, s.cell, coupling::face_mean(surface.x, q), double(side) * (area / norm(area)),
+                                coupling::face_mean(surface.v, q)};
+  });
+}
+
+std::vector<Probe> find_probes(const coupling::WetSurface& surface, const CutMap& map) {
   std::vector<Probe> probes;
-  for (size_t f = 0; f < faces; ++f)
-    for (const Probe* p : {&front[f], &back[f]})
-      if (p->face >= 0) probes.push_back(*p);
+  std::vector<size_t> first;
+  find_probes(surface, map, 1, [](const Index3&) { return 0; }, probes, first);
   return probes;
 }
 

@@ -2,6 +2,7 @@
 // Where each wet face asks the fluid for its pressure: an open cell on its own side. A face of a closed body has one
 // side, a face of a thin shell two.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "cfd/embed/cut_map.h"
@@ -21,5 +22,10 @@ struct Probe {
 /// One probe per face and wet side that sees fluid within two cells along its normal, in the order of the faces; the
 /// others are dry: in metal, in a gap too narrow for a cell, outside the lattice, or without area.
 std::vector<Probe> find_probes(const coupling::WetSurface& surface, const CutMap& map);
+/// The same in groups, 0 <= group_of(cell) < groups, in a group in the order of the faces; first: where each group
+/// begins in probes [groups + 1].
+void find_probes(const coupling::WetSurface& surface, const CutMap& map, size_t groups,
+                 const std::function<size_t(const Index3&)>& group_of, std::vector<Probe>& probes,
+                 std::vector<size_t>& first);
 
 }  // namespace bw::cfd

@@ -228,21 +228,27 @@ Vec3 at_crossing(const coupling::WetSurface& surface, const std::vector<Vec3>& v
   const Vec3 c = triangle ? v[q[2]] : 0.25 * ((v[q[0]] + v[q[2]]) + (v[q[1]] + v[q[3]]));
   return a + on.b * (b - a) + on.c * (c - a);
 }
-/// update(side, where it is on its face) for both sides of all links and apertures.
-template <class Update>
-void for_each_side(CutMap& map, const Update& update) {
-  const auto both = [&](CutLink& l) { update(l.below, l.below_at), update(l.above, l.above_at); };
-  for (CutLink& l : map.links()) both(l);
-  for (Aperture& a : map.apertures()) both(a.link);
+/// set(side, value at its crossing) for both sides of all links and apertures; most links have one crossing.
+template <class Set>
+void for_each_side(const coupling::WetSurface& surface, const std::vector<Vec3>& nodal, CutMap& map, const Set& set) {
+  const auto both = [&](CutLink& l) {
+    const Vec3 below = at_crossing(surface, nodal, l.below.face, l.below_at);
+    set(l.below, below);
+    set(l.above, l.above.face == l.below.face && l.above_at == l.below_at
+                     ? below
+                     : at_crossing(surface, nodal, l.above.face, l.above_at));
+  };
+  parallel_for(int64_t(map.links().size()), [&](int64_t i) { both(map.links()[size_t(i)]); });
+  parallel_for(int64_t(map.apertures().size()), [&](int64_t i) { both(map.apertures()[size_t(i)].link); });
 }
 }  // namespace
 
 void update_velocities(const coupling::WetSurface& surface, CutMap& map) {
-  for_each_side(map, [&](WallSide& w, const OnFace& at) { w.v = at_crossing(surface, surface.v, w.face, at); });
+  for_each_side(surface, surface.v, map, [](WallSide& w, const Vec3& v) { w.v = v; });
 }
 
 void update_accelerations(const coupling::WetSurface& surface, const std::vector<Vec3>& a, CutMap& map) {
-  for_each_side(map, [&](WallSide& w, const OnFace& at) { w.a_n = float(dot(at_crossing(surface, a, w.face, at), w.n)); });
+  for_each_side(surface, a, map, [](WallSide& w, const Vec3& at) { w.a_n = float(dot(at, w.n)); });
 }
 
 }  // namespace bw::cfd

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cfd/embed/scan.h"
+#include "common/parallel/loop.h"
 
 namespace bw::cfd {
 
@@ -53,7 +54,10 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
   if (cut_ && !placed_) cut_->place(surface_, x);
   placed_ = true;
   if (!probes_current_) place_probes();
-  for (Probe& p : probes_) p.v = coupling::face_mean(surface_.v, surface_.quads[size_t(p.face)]);
+  parallel_for(int64_t(probes_.size()), [&](int64_t i) {
+    Probe& p = probes_[size_t(i)];
+    p.v = coupling::face_mean(surface_.v, surface_.quads[size_t(p.face)]);
+  });
   values_.assign(2 * probes_.size(), 0.0);
 }
 
@@ -67,12 +71,8 @@ void Walls::set_step(double dt, const std::vector<Vec3>& x_end) {
 }
 
 void Walls::place_probes() {
-  probes_ = find_probes(surface_, map_);
-  std::stable_sort(probes_.begin(), probes_.end(),
-                   [&](const Probe& a, const Probe& b) { return block_number(a.cell) < block_number(b.cell); });
-  first_probe_.assign(size_t(blocks_[0]) * size_t(blocks_[1]) * size_t(blocks_[2]) + 1, 0);
-  for (const Probe& p : probes_) ++first_probe_[block_number(p.cell) + 1];
-  for (size_t b = 1; b < first_probe_.size(); ++b) first_probe_[b] += first_probe_[b - 1];
+  find_probes(surface_, map_, size_t(blocks_[0]) * size_t(blocks_[1]) * size_t(blocks_[2]),
+              [&](const Index3& c) { return block_number(c); }, probes_, first_probe_);
   probes_current_ = true;
 }
 
@@ -87,11 +87,10 @@ void Walls::end(const std::vector<Vec3>& x_end) {
 
 void Walls::rescan(const std::vector<Vec3>* x_before) {
   probes_current_ = false;
-  CutMap now;
-  scan(surface_, lattice_, now);
-  if (options_.slits != Slits::centre) find_apertures(surface_, options_.slits, now);
-  if (x_before) changes_ = compare(map_, now, swept_cells(surface_, *x_before, lattice_));
-  map_ = std::move(now);
+  scan(surface_, lattice_, map_now_);
+  if (options_.slits != Slits::centre) find_apertures(surface_, options_.slits, map_now_);
+  if (x_before) changes_ = compare(map_, map_now_, swept_cells(surface_, *x_before, lattice_));
+  std::swap(map_, map_now_);
 }
 
 void Walls::accept(int layer) {

@@ -130,7 +130,7 @@ class Walls {
   double dt_ = 0, dt_last_ = 0;
   coupling::NodePlaces places_;
   Lips lips_;
-  CutMap map_;
+  CutMap map_, map_now_;  ///< the latter: room for the next
   Changes changes_;
   std::vector<Probe> probes_;        ///< by block, then face
   std::vector<size_t> first_probe_;  ///< [block] into probes_
