@@ -10,7 +10,9 @@
 namespace bw::coupling {
 
 FluidSide::FluidSide(Channel& channel, const CouplingCase& cs, const Hello& hello) : channel_(channel) {
-  t_end_ = shake_hands(channel, cs, hello).t_end;
+  const Greeting greeting = shake_hands(channel, cs, hello);
+  t_end_ = greeting.t_end;
+  minor_ = greeting.minor();
   known_.t = hello.t0;
   known_.window = hello.first_window - 1;
 }
@@ -95,7 +97,7 @@ void FluidSide::receive_from_solid(size_t nodes, size_t faces) {
     surface_.body.assign(values_.begin(), flags);
     surface_.flags.assign(flags, values_.end());
     fault = check_connectivity(surface_);
-    hash = connectivity_hash(surface_);
+    hash = connectivity_hash(surface_, minor_);
   };
   if (topology_changed_)
     beside(int64_t(faces), receive_motion, unpack_connectivity);

@@ -42,6 +42,7 @@ class FluidSide {
 
   Channel& channel_;
   double t_end_ = 0;
+  uint32_t minor_ = 0;  // of the protocol, that both speak
   Window window_;
   WetSurface surface_;
   std::vector<int64_t> ids_;  // as on the wire

@@ -9,8 +9,9 @@ namespace bw::coupling {
 /// the two programs do not fit together.
 struct Greeting {
   double t_end = 0;
-  uint64_t features = 0;       ///< of the other program
-  HelloBlock mine{}, other{};  ///< as on the wire (leader)
+  uint64_t features = 0;                                                                  ///< of the other program
+  HelloBlock mine{}, other{};                                                             ///< as on the wire (leader)
+  uint32_t minor() const { return mine.minor < other.minor ? mine.minor : other.minor; }  ///< that both speak (leader)
 };
 Greeting shake_hands(Channel& channel, const CouplingCase& cs, const Hello& hello);
 

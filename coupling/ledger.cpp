@@ -44,7 +44,7 @@ SolidTotals substep_totals(std::span<const Vec3> f, std::span<const Vec3> x_wind
     add_at(s, impulse, f[i]), add_at(s, moment, cross(x_window[i], f[i]));
     s[work] += dot(f[i], x_after[i] - x_before[i]);
   };
-  const auto sum = exact_sums<sums>(f.size(), add_node, worth_sharing);
+  const auto sum = exact_sums<sums>(f.size(), add_node);
   return {
       .impulse = h * vector_at(sum, impulse), .moment = h * vector_at(sum, moment), .work = sum[work], .substeps = 1};
 }
@@ -130,7 +130,7 @@ std::optional<std::string> Ledger::close(std::span<const Vec3> x_end) {
     const auto add_face = [&](size_t f, std::array<double, 1>& s) {
       s[0] += dot(area_[f], face_mean(gap, surface_->quads[f]));
     };
-    row_.volume_gap = exact_sums<1>(area_.size(), add_face, worth_sharing)[0];
+    row_.volume_gap = exact_sums<1>(area_.size(), add_face)[0];
   }
   const double defect = norm(row_.impulse_defect);
   // a fluid that counts its own step instead of t1 - t0 is off by the rounding of t1: no loss

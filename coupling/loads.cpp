@@ -48,7 +48,7 @@ FluidTotals wall_totals(const WetSurface& surface, const Loads& loads, std::span
     add_at(s, impulse, force), add_at(s, moment, cross(face_mean(surface.x, q), force));
     s[work] += dot(force, v), s[swept] += dot(area, v);
   };
-  const auto sum = exact_sums<sums>(loads.p.size(), add_face, worth_sharing);
+  const auto sum = exact_sums<sums>(loads.p.size(), add_face);
   FluidTotals totals;
   totals.impulse = dt * vector_at(sum, impulse);
   totals.moment = dt * vector_at(sum, moment);

@@ -66,19 +66,47 @@ Verdict check_distinct(const char* name, const std::vector<int64_t>& ids) {
   return {};
 }
 
-/// FNV-1a on words of 64 bits, the last one filled up with zeros
-template <class T>
-uint64_t hash(uint64_t h, const std::vector<T>& a) {
-  const size_t bytes = a.size() * sizeof(T), whole = bytes - bytes % 8;
-  const auto* data = reinterpret_cast<const char*>(a.data());
-  const auto take = [&](size_t at, size_t count) {
+/// FNV-1a on words of 64 bits, an array's last one filled up with zeros; each next word of an array goes to the next of
+/// some lanes, which don't wait for each other.
+template <size_t lanes>
+class LaneHash {
+ public:
+  template <class T>
+  void take(const std::vector<T>& a) {
+    const size_t bytes = a.size() * sizeof(T);
+    const auto* data = reinterpret_cast<const char*>(a.data());
+    size_t at = 0;
+    for (; at + 8 * lanes <= bytes; at += 8 * lanes)
+      for (size_t k = 0; k < lanes; ++k) mix(h_[k], data + at + 8 * k, 8);
+    for (size_t k = 0; at < bytes; ++k, at += 8) mix(h_[k], data + at, std::min<size_t>(8, bytes - at));
+  }
+  uint64_t value() const {
+    if (lanes == 1) return h_[0];
+    uint64_t h = start;
+    for (const uint64_t& lane : h_) mix(h, reinterpret_cast<const char*>(&lane), 8);
+    return h;
+  }
+
+ private:
+  static constexpr uint64_t start = 14695981039346656037ull;
+  static void mix(uint64_t& h, const char* from, size_t count) {
     uint64_t word = 0;
-    std::memcpy(&word, data + at, count);
+    std::memcpy(&word, from, count);
     h = (h ^ word) * 1099511628211ull;
-  };
-  for (size_t i = 0; i < whole; i += 8) take(i, 8);
-  if (whole < bytes) take(whole, bytes - whole);
-  return h;
+  }
+  std::array<uint64_t, lanes> h_ = [] {
+    std::array<uint64_t, lanes> h{};
+    h.fill(start);
+    return h;
+  }();
+};
+
+template <size_t lanes>
+uint64_t hash_in_lanes(const WetSurface& surface) {
+  LaneHash<lanes> h;
+  h.take(surface.quads), h.take(surface.node_id), h.take(surface.node_parent);
+  h.take(surface.face_id), h.take(surface.body), h.take(surface.flags);
+  return h.value();
 }
 
 void put(double (&to)[3], const Vec3& from) {
@@ -248,14 +276,8 @@ Verdict check_surface(const WetSurface& surface) {
   return check_motion(surface);
 }
 
-uint64_t connectivity_hash(const WetSurface& surface) {
-  uint64_t h = 14695981039346656037ull;
-  h = hash(h, surface.quads);
-  h = hash(h, surface.node_id);
-  h = hash(h, surface.node_parent);
-  h = hash(h, surface.face_id);
-  h = hash(h, surface.body);
-  return hash(h, surface.flags);
+uint64_t connectivity_hash(const WetSurface& surface, uint32_t minor) {
+  return minor < minor_of_lanes ? hash_in_lanes<1>(surface) : hash_in_lanes<4>(surface);
 }
 
 // --- LOAD

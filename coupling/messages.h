@@ -15,7 +15,7 @@ namespace bw::coupling {
 static_assert(std::endian::native == std::endian::little, "the wire is little-endian");
 
 constexpr uint32_t protocol_major = 1, protocol_minor = 2;
-constexpr uint32_t minor_of_fixed_windows = 1, minor_of_minor_needed = 2;
+constexpr uint32_t minor_of_fixed_windows = 1, minor_of_minor_needed = 2, minor_of_lanes = 2;
 constexpr char protocol_magic[9] = "BWCOUPL\n";
 constexpr uint32_t protocol_endian = 0x01020304;
 
@@ -152,7 +152,8 @@ Verdict check_surface(const WetSurface& surface);
 Verdict check_connectivity(const WetSurface& surface);
 /// The part of it that changes in every window: x and v, finite.
 Verdict check_motion(const WetSurface& surface);
-uint64_t connectivity_hash(const WetSurface& surface);
+/// minor: that both programs speak.
+uint64_t connectivity_hash(const WetSurface& surface, uint32_t minor = protocol_minor);
 
 LoadBlock pack(const Loads& loads, const StepBlock& asked);
 FluidTotals totals_of(const LoadBlock& load);

@@ -43,6 +43,7 @@ Verdict RecordedFluid::take(int tag, std::span<const char> bytes) {
 
 void RecordedFluid::greet(const HelloBlock& solid) {
   HelloBlock hello = replayed(record_.fluid(), solid);
+  hello.minor = std::min(hello.minor, record_.solid().minor);  // the hashes on record are those of both
   hello.t_end = record_.is_finished() ? record_.end() : record_.agreed_end();
   answer(tag_hello, &hello, sizeof hello);
 }

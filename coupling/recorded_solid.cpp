@@ -41,6 +41,7 @@ Verdict RecordedSolid::take(int tag, std::span<const char> bytes) {
 
 void RecordedSolid::greet(const HelloBlock& fluid) {
   HelloBlock hello = replayed(record_.solid(), fluid);
+  hello.minor = std::min(hello.minor, record_.fluid().minor);  // the hashes on record are those of both
   hello.t_end = record_.is_finished() ? record_.end() : record_.agreed_end();
   t_end_ = fluid.t_end > 0 ? std::min(fluid.t_end, hello.t_end) : hello.t_end;
   answer(tag_hello, &hello, sizeof hello);

@@ -26,6 +26,7 @@ SolidSide::SolidSide(Channel& channel, const CouplingCase& cs, const Hello& hell
   const Greeting greeting = shake_hands(channel, cs, hello);
   t_end_ = greeting.t_end;
   features_ = greeting.features;
+  minor_ = greeting.minor();
   if (channel.leader() && !cs.record.empty() && cs.replay.empty())
     recorder_.emplace(cs.record, greeting.mine, greeting.other);
   t_last_ = hello.t0;
@@ -80,7 +81,7 @@ void SolidSide::send(Window window, WetSurface& surface, std::span<const double>
   if (renewed)
     beside(
         int64_t(surface.quads.size()), [&] { gather_connectivity(surface), fault = check_connectivity(surface); },
-        [&] { hash = connectivity_hash(surface); });
+        [&] { hash = connectivity_hash(surface, minor_); });
   if (!fault) fault = check_motion(surface);
   if (fault) channel_.fail(fault->code, fault->text);
   const LedgerRow books = ledger_.row();

@@ -51,6 +51,8 @@ class SolidSide {
   /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after expect or
   /// receive, if the fluid told impedances.
   const std::vector<Vec3>& announced() const { return sent_->v; }
+  /// Of the protocol's version, that both programs speak (leader).
+  uint32_t minor() const { return minor_; }
   /// The fluid can keep its state.
   bool fluid_keeps() const { return features_ & feature_checkpoint; }
   /// The fluid asked for a checkpoint in its last answer.
@@ -100,6 +102,7 @@ class SolidSide {
   CouplingCase case_;
   double t_end_ = 0;
   uint64_t features_ = 0;  // of the fluid
+  uint32_t minor_ = 0;
   bool asks_checkpoint_ = false;
   std::string fluid_file_, history_path_;
   Window window_;

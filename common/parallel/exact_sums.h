@@ -11,13 +11,10 @@
 
 namespace bw {
 
-/// Light items from which on threads that are awake, as they are after a step, share a loop's work.
-constexpr int64_t worth_sharing = 4096;
-
 /// n sums over [0, count), light ones: add(i, sums) adds the terms of i to plain sums of a few. Bit-equal for any
-/// number of threads; of at most `alone` items no other thread is woken.
+/// number of threads.
 template <size_t n, class Add>
-std::array<double, n> exact_sums(size_t count, const Add& add, int64_t alone = worth_waking) {
+std::array<double, n> exact_sums(size_t count, const Add& add) {
   constexpr size_t chunk = 64 * terms_at_once;
   std::vector<std::array<ExactSum, n>> parts((count + chunk - 1) / chunk);
   const auto sum_chunk = [&](int64_t c) {
@@ -30,7 +27,7 @@ std::array<double, n> exact_sums(size_t count, const Add& add, int64_t alone = w
     }
     parts[size_t(c)] = exact;
   };
-  parallel_for(int64_t(parts.size()), sum_chunk, alone / int64_t(chunk));
+  parallel_for(int64_t(parts.size()), sum_chunk, worth_waking / int64_t(chunk));
   std::array<ExactSum, n> exact;
   for (const auto& part : parts)
     for (size_t k = 0; k < n; ++k) exact[k] += part[k].value();

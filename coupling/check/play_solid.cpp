@@ -140,7 +140,7 @@ void Solid::send_strange_surface() {
   }
   StepBlock step = pack({.t0 = 0, .t1_max = dt, .dt_stable = dt, .mean_pressure = o.scheme != "box1"}, wet);
   if (is("index")) wet.quads[0][1] = 99;
-  step.hash = connectivity_hash(wet) + is("hash");
+  step.hash = connectivity_hash(wet, side.minor()) + is("hash");
   step.flags |= step_connectivity;
   if (is("order")) step.window = 5;
   if (is("nan")) wet.v[3].y = NAN;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -155,6 +156,32 @@ TEST(Wire, SurfaceFaultsAreNamed) {
   s = square();
   s.body.clear();
   EXPECT_EQ(check_surface(s)->code, exit_malformed);
+}
+
+/// Of the text in PROTOCOL.md, word by word.
+uint64_t told_hash(const WetSurface& s, size_t lanes) {
+  const auto mix = [](uint64_t& h, uint64_t word) { h = (h ^ word) * 1099511628211ull; };
+  std::vector<uint64_t> h(lanes, 14695981039346656037ull);
+  const auto take = [&](const auto& array) {
+    std::vector<uint64_t> words((array.size() * sizeof array[0] + 7) / 8);
+    std::memcpy(words.data(), array.data(), array.size() * sizeof array[0]);
+    for (size_t i = 0; i < words.size(); ++i) mix(h[i % lanes], words[i]);
+  };
+  take(s.quads), take(s.node_id), take(s.node_parent), take(s.face_id), take(s.body), take(s.flags);
+  if (lanes == 1) return h[0];
+  uint64_t all = 14695981039346656037ull;
+  for (const uint64_t lane : h) mix(all, lane);
+  return all;
+}
+
+TEST(Wire, HashIsAsTheProtocolSays) {
+  WetSurface s = square();
+  for (int64_t i = 0; i < 7; ++i) {
+    s.quads.push_back({0, 1, 2, int32_t(i % 4)}), s.face_id.push_back(11 * i), s.body.push_back(int32_t(i));
+    s.flags.push_back(1), s.node_id.push_back(20 + i), s.node_parent.push_back(-1);
+    EXPECT_EQ(connectivity_hash(s, 1), told_hash(s, 1));
+    EXPECT_EQ(connectivity_hash(s, 2), told_hash(s, 4));
+  }
 }
 
 TEST(Wire, EveryArrayCountsInTheHash) {
