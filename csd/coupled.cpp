@@ -111,6 +111,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
     const Timed timed("surface");
     surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
     nodes_ = surface_.nodes();
+    x_ = surface_.wet().x;
     mass = areal_mass(m, surface_);
   }
   side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), mass);
@@ -125,7 +126,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   if (!owed_.empty()) back.resize(on_faces.size());
   for (size_t i = 0; i < owed_.size(); ++i) back[i] += owed_[i] / dt;  // faces keep their places
   owed_.clear();
-  if (expected) expected_ = Expected{on_faces, positions(m), m.state.t, {}};
+  if (expected) expected_ = Expected{on_faces, m.state.t, {}};
   back_ = back.empty() ? std::vector<Vec3>{} : coupling::nodal_loads(surface_.wet(), back);
   std::vector<std::pair<Face, Vec3>> forces;
   forces.reserve(on_faces.size());
@@ -144,19 +145,19 @@ void Coupled::hear() {
   to_commit_.reset();
 }
 
-void Coupled::settle(const Model& m) {
+void Coupled::settle() {
   const coupling::Loads& loads = side_->receive();
   hear();
   const double dt = loads.t1 - expected_->t0;
   std::vector<Vec3> lacking = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), lacking);
   for (size_t i = 0; i < lacking.size(); ++i) lacking[i] -= expected_->on_faces[i];
-  const std::vector<Vec3> now = positions(m), start = std::move(expected_->x_start);
-  coupling::SolidTotals given = coupling::substep_totals(force_, surface_.wet().x, start, now, dt);
+  const std::vector<Vec3>& start = surface_.wet().x;
+  coupling::SolidTotals given = coupling::substep_totals(force_, start, start, x_, dt);
   given.substeps = expected_->beyond.substeps;
   side_->add(given);
   const coupling::SolidTotals missed =
-      coupling::substep_totals(coupling::nodal_loads(surface_.wet(), lacking), surface_.wet().x, start, now, dt);
+      coupling::substep_totals(coupling::nodal_loads(surface_.wet(), lacking), start, start, x_, dt);
   side_->add_advance(expected_->beyond.impulse - missed.impulse, expected_->beyond.work - missed.work);
   owed_ = std::move(lacking);
   for (Vec3& force : owed_) force = force * dt;
@@ -188,19 +189,15 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
   return back;
 }
 
-void Coupled::before_step(const Model& m) {
-  const Timed timed("ledger");
-  x_before_ = positions(m);
-}
-
 void Coupled::after_step(const Model& m, double dt) {
   if (expected_) side_->poll();  // a fluid that fails meanwhile waits a moment only to be heard
   const Timed timed("ledger");
-  const std::vector<Vec3> now = positions(m);
-  if (!expected_) side_->add(coupling::substep_totals(force_, surface_.wet().x, x_before_, now, dt));
+  const std::vector<Vec3> before = std::move(x_);
+  x_ = positions(m);
+  if (!expected_) side_->add(coupling::substep_totals(force_, surface_.wet().x, before, x_, dt));
   coupling::SolidTotals back;
   back.substeps = 1;
-  if (!back_.empty()) back = coupling::substep_totals(back_, surface_.wet().x, x_before_, now, dt);
+  if (!back_.empty()) back = coupling::substep_totals(back_, surface_.wet().x, before, x_, dt);
   if (expected_)
     expected_->beyond += back;
   else
@@ -208,13 +205,13 @@ void Coupled::after_step(const Model& m, double dt) {
 }
 
 void Coupled::end_window(const Model& m) {
-  if (expected_) settle(m);
+  if (expected_) settle();
   if (const auto& radiation = m.physics.loads->radiation) {
     ExactSum3 impulse;
     for (const Vec3& one : radiation->impulses()) impulse += one;
     side_->add_advance(impulse.value(), radiation->work());
   }
-  side_->end_window(positions(m));
+  side_->end_window(x_);
 }
 
 void Coupled::finish(const Model& m) {

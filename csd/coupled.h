@@ -43,8 +43,7 @@ class Coupled {
   void commit_with_next(const std::string& file, int keep);
   /// In a checkpoint, between two windows.
   void keep(Archive a, Model& model);
-  /// Around each step of the window.
-  void before_step(const Model& model);
+  /// After each step of the window.
   void after_step(const Model& model, double dt);
   void end_window(const Model& model);
   /// Tells what crossed in the whole run, and says BYE.
@@ -55,19 +54,18 @@ class Coupled {
   /// What the fluid's answer brings besides loads.
   void hear();
   /// The true answer to a window that went by the expected one: what was lacking is owed to the next window.
-  void settle(const Model& model);
+  void settle();
   /// Forces on faces [N] that give back the impulses that radiation advanced in the window before, and radiation for
   /// this one, dt long.
   std::vector<Vec3> renew_radiation(Model& model, const coupling::Loads& loads, double dt_stable, double dt);
 
   const Case& case_;
   Surface surface_;
-  std::vector<NodeId> nodes_;           ///< of the surface as sent
-  std::vector<Vec3> force_, x_before_;  ///< per node of it: N in this window, m
-  std::vector<Vec3> back_;  ///< per node: N in this window, that give back what radiation advanced, or owed_
+  std::vector<NodeId> nodes_;    ///< of the surface as sent
+  std::vector<Vec3> force_, x_;  ///< per node of it: N in this window; m, where it is by now
+  std::vector<Vec3> back_;       ///< per node: N in this window, that give back what radiation advanced, or owed_
   struct Expected {
     std::vector<Vec3> on_faces;    ///< N
-    std::vector<Vec3> x_start;     ///< m, per node
     double t0 = 0;                 ///< s
     coupling::SolidTotals beyond;  ///< of back_
   };

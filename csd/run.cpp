@@ -111,7 +111,6 @@ int run(const Case& cs, Model& m, coupling::Channel* channel) {
       }
       while (!sub.done() && !at_rest && (coupled || steps_left())) {
         const double h = sub.next(dt);
-        if (coupled) coupled->before_step(m);
         step(m, h);
         m.state.t = sub.advance();
         if (coupled) coupled->after_step(m, h);
