@@ -150,6 +150,10 @@ TEST(Wire, SurfaceFaultsAreNamed) {
   s = square();
   s.node_id[2] = 7;
   EXPECT_EQ(check_surface(s)->text, "SURFACE: node_id 7 occurs twice");
+  s.node_id = {int64_t(1) << 60, 5, -(int64_t(1) << 62), 6};  // not dense
+  EXPECT_FALSE(check_surface(s));
+  s.node_id[3] = s.node_id[2];
+  EXPECT_EQ(check_surface(s)->text, "SURFACE: node_id -4611686018427387904 occurs twice");
   s = square();
   s.x[1].z = std::numeric_limits<double>::infinity();
   EXPECT_EQ(check_surface(s)->text, "SURFACE: x of node 1 is (1, 0, inf)");

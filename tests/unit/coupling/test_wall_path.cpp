@@ -51,5 +51,19 @@ TEST(WallPath, SplitNodesStartAtTheirParentsWall) {
   EXPECT_EQ(path.x()[4].x, 7);
 }
 
+TEST(NodePlaces, DenseAndSparseIdsAreFound) {
+  for (const int64_t stride : {int64_t(1), int64_t(5), int64_t(1000), int64_t(1) << 56}) {
+    WetSurface s;
+    for (const int64_t i : {40, -3, 17, 0, 5, 6, 39}) s.node_id.push_back(i * stride);
+    const NodePlaces places(s);
+    for (size_t i = 0; i < s.node_id.size(); ++i) {
+      EXPECT_EQ(places.find(s.node_id[i]), int64_t(i)) << stride;
+      EXPECT_EQ(places.find(s.node_id[i] + 2 * stride), -1) << stride;
+    }
+    EXPECT_TRUE(places.are_of(s));
+  }
+  EXPECT_EQ(NodePlaces().find(0), -1);
+}
+
 }  // namespace
 }  // namespace bw::coupling
