@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/fragments/foot.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bw::csd {
@@ -9,7 +10,7 @@ namespace bw::csd {
 std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& q) {
   constexpr double beside = 1 + 1e-6;  // meshes that match have nodes on edges, to round-off
   const Vec3 twist = 0.25 * (q[0] - q[1] + q[2] - q[3]);
-  double s = 0, t = 0;
+  double s = 0, t = 0, before = 1e300;
   for (int i = 0; i < 12; ++i) {
     const std::array<double, 4> N{0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
                                   0.25 * (1 - s) * (1 + t)};
@@ -19,11 +20,14 @@ std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& q) {
     const double a = dot(ps, ps), b = dot(ps, pt) - dot(r, twist), c = dot(pt, pt), det = a * c - b * b;
     if (!(det > 1e-12 * a * c)) return std::nullopt;
     const double u = dot(r, ps), v = dot(r, pt), ds = (c * u - b * v) / det, dt = (a * v - b * u) / det;
-    if (std::fabs(ds) + std::fabs(dt) > 1e-14) {
+    if (const double change = std::fabs(ds) + std::fabs(dt); change > 1e-14) {
       s += ds, t += dt;
-      if (!(std::fabs(s) < 4 && std::fabs(t) < 4)) return std::nullopt;
+      const double far = std::max(std::fabs(s), std::fabs(t));
+      if (!(far < 4)) return std::nullopt;
+      if (change < 0.25 * before && far > beside + 4 * change) return std::nullopt;  // it converges there: beside
+      before = change;
       if (i < 11) continue;
-      if (std::fabs(ds) + std::fabs(dt) > 1e-12) return std::nullopt;  // as far from the face as it is curved
+      if (change > 1e-12) return std::nullopt;  // as far from the face as it is curved
     }
     if (std::fabs(s) > beside || std::fabs(t) > beside) return std::nullopt;
     const Vec3 area = cross(ps, pt);
