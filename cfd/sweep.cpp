@@ -51,6 +51,7 @@ Sweep::Sweep(const Forest& forest, const FlowSetup& setup, Walls* walls)
     if (!walls_) continue;
     if (walls_->cut()) {
       space.cut_cell.emplace(forest.finest_shape());
+      space.patch.whole = true;
       continue;
     }
     space.cuts = PatchCuts(forest.finest_shape());

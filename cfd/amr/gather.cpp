@@ -72,6 +72,12 @@ bool Gather::quiet(int block) const {
   return true;
 }
 
+namespace {
+/// Ghosts by their layer beyond the block along each direction, 0 within: slopes of the first layer ask for those at
+/// edges whose layers are 2 in all, interpolation between cells around a point for the first at corners.
+bool used_by_stencils(int x, int y, int z) { return x + y + z <= ghost_layers || std::max({x, y, z}) <= 1; }
+}  // namespace
+
 template <int n_U, int n_W, class Convert>
 void Gather::fill_rows(int block, Patch& patch, const LevelGhosts& space, const int (&cons)[n_U],
                        const int (&prim)[n_W], const Convert& convert) const {
@@ -85,9 +91,26 @@ void Gather::fill_rows(int block, Patch& patch, const LevelGhosts& space, const 
   };
   GhostSource ends[2 * ghost_layers];
   for (int e = 0; e < 2 * g; ++e) ends[e] = source(block, 0, e < g ? e - g : n + e - g);
+  // ghosts at the ends of rows are converted a pack at a time, some rows' together
+  double end_U[n_U][w];
+  int waiting = 0;
+  double* place[w];  // row 0 of the patch
+  const auto convert_ends = [&] {
+    Pack U[n_U], W[n_W];
+    for (int q = 0; q < n_U; ++q) U[q] = Pack::load(end_U[q]);
+    convert(U, W);
+    for (int q = 0; q < n_W; ++q)
+      for (int l = 0; l < waiting; ++l) place[l][prim[q] * patch.stride_variable()] = W[q][l];
+    waiting = 0;
+  };
+  for (auto& u : end_U) std::fill(u, u + w, 1.0);
+  const auto wanted = [&](int x, int y, int z) { return patch.whole || used_by_stencils(x, y, z); };
+  const auto beyond = [&](int d, int i) { return i < 0 ? -i : std::max(i - s.n[size_t(d)] + 1, 0); };
   for (int k = -s.ghost(2); k < s.n[2] + s.ghost(2); ++k) {
     const GhostSource sk = source(block, 2, k);
     for (int j = -s.ghost(1); j < s.n[1] + s.ghost(1); ++j) {
+      const int layers[2] = {beyond(1, j), beyond(2, k)};
+      if (!wanted(0, layers[0], layers[1])) continue;
       const GhostSource sj = source(block, 1, j);
       const double* constant = sk.constant ? sk.constant : sj.constant;
       const size_t row = s.at(sk.index, sj.index, 0);
@@ -109,30 +132,23 @@ void Gather::fill_rows(int block, Patch& patch, const LevelGhosts& space, const 
         convert(U, W);
         for (int q = 0; q < n_W; ++q) W[q].store(out[q] + i);
       }
-      if (g == 0) continue;
-      double end_U[n_U][2 * ghost_layers + w], end_W[n_W][2 * ghost_layers + w];
       for (int e = 0; e < 2 * g; ++e) {
+        const int i = e < g ? e - g : n + e - g;
+        if (!wanted(beyond(0, i), layers[0], layers[1])) continue;
         const double* fixed = constant ? constant : ends[e].constant;
         const double* base =
             fixed ? nullptr : cells({ends[e].offset, sj.offset, sk.offset}) + row + size_t(ends[e].index);
         for (int q = 0; q < n_U; ++q) {
           const double u = fixed ? fixed[cons[q]] : base[size_t(cons[q]) * variable];
           const bool turned = !fixed && reversed[q] != (cons[q] == Cons::mom && ends[e].mirror);
-          end_U[q][e] = turned ? -u : u;
+          end_U[q][waiting] = turned ? -u : u;
         }
-      }
-      for (int e = 0; e < 2 * g; e += w) {
-        Pack U[n_U], W[n_W];
-        for (int q = 0; q < n_U; ++q) U[q] = Pack::load(end_U[q] + e);
-        convert(U, W);
-        for (int q = 0; q < n_W; ++q) W[q].store(end_W[q] + e);
-      }
-      for (int q = 0; q < n_W; ++q) {
-        std::copy_n(end_W[q], ghost_layers, out[q] - ghost_layers);
-        std::copy_n(end_W[q] + ghost_layers, ghost_layers, out[q] + n);
+        place[waiting++] = patch.row(0, k, j) + i;
+        if (waiting == w) convert_ends();
       }
     }
   }
+  if (waiting > 0) convert_ends();
 }
 
 void Gather::fill(int block, Patch& patch, LevelGhosts& space, bool all_rows) const {

@@ -82,6 +82,7 @@ class Patch {
   static constexpr int margin = 4;         ///< doubles before i = 0
   static constexpr int margin_right = 10;  ///< doubles from i = n on: two ghosts, and packs that hang over
 
+  bool whole = false;    ///< in: all ghosts are wanted; else those alone that the block kernel's and samplers' stencils meet
   int block = -1;        ///< local index of the block (cfd/amr/forest.h)
   Vec3 lower;            ///< its lower corner [m]; centre of cell i: lower + (i + 1/2) h
   bool burns = false;    ///< row Prim::stored_energy is filled

@@ -88,15 +88,27 @@ void PatchCuts::gather_links(const CutMap& map, int d, const Index3& c, int at) 
 }
 
 /// No face between metal and fluid: an open surface ends here, or a cell is sealed. A resting wall half way.
-void PatchCuts::close_orphan(int d, int c) {
-  const int u = c + step_[d];
-  if (blocked(c) == blocked(u) || cut(c, d, 1)) return;
-  Vec3 n;
-  n[d] = blocked(c) ? 1 : -1;
-  const WallSide& w = own_.emplace_back(WallSide{0.5, n, {}, -1});
-  set_wall(c, first_cut, d, 1, w);
-  set_wall(u, first_cut, d, 0, w);
-  ++orphans_;
+void PatchCuts::close_orphans(int d) {
+  const int n_row = e_[0] - (d == 0), end[2] = {e_[1] - (d == 1), e_[2] - (d == 2)};
+  for (int k = 0; k < end[1]; ++k)
+    for (int j = 0; j < end[0]; ++j) {
+      const int first = (k * e_[1] + j) * e_[0], above = first + step_[d];
+      if (!written_[size_t(first / e_[0])] && !written_[size_t(above / e_[0])]) continue;
+      const uint16_t *a = &bits_[size_t(first)], *b = &bits_[size_t(above)];
+      uint16_t differ = 0;
+      for (int i = 0; i < n_row; ++i) differ = uint16_t(differ | ((a[i] ^ b[i]) & is_blocked));
+      if (!differ) continue;
+      for (int i = 0; i < n_row; ++i) {
+        const int c = first + i;
+        if (blocked(c) == blocked(c + step_[d]) || cut(c, d, 1)) continue;
+        Vec3 n;
+        n[d] = blocked(c) ? 1 : -1;
+        const WallSide& w = own_.emplace_back(WallSide{0.5, n, {}, -1});
+        set_wall(c, first_cut, d, 1, w);
+        set_wall(c + step_[d], first_cut, d, 0, w);
+        ++orphans_;
+      }
+    }
 }
 
 void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3& origin) {
@@ -144,17 +156,17 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
       const int at_c = at(c[2], c[1], c[0]);
       if (c[d] < end && within(c[d]) && raw_[size_t(at_c)] & (cell_cut << d)) gather_links(map, int(d), c, at_c);
     }
+    bool at_side = false;
     for (int i = -g_[d]; i < end; ++i) {
-      if (within(i) ? !map.may_have_orphans() : !meets_walls(map, int(d), i)) continue;
+      if (within(i) || !meets_walls(map, int(d), i)) continue;
+      at_side = true;
       Index3 c, low{-g_[0], -g_[1], -g_[2]}, high{e_[0] - g_[0], e_[1] - g_[1], e_[2] - g_[2]};
       low[d] = i, high[d] = i + 1;
       for (c[2] = low[2]; c[2] < high[2]; ++c[2])
         for (c[1] = low[1]; c[1] < high[1]; ++c[1])
-          for (c[0] = low[0]; c[0] < high[0]; ++c[0]) {
-            if (!within(i)) gather_links(map, int(d), c, at(c[2], c[1], c[0]));
-            close_orphan(int(d), at(c[2], c[1], c[0]));
-          }
+          for (c[0] = low[0]; c[0] < high[0]; ++c[0]) gather_links(map, int(d), c, at(c[2], c[1], c[0]));
     }
+    if (at_side || map.may_have_orphans()) close_orphans(int(d));
   }
   gather_apertures(map, lower, upper);
 }

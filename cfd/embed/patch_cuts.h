@@ -49,7 +49,7 @@ class PatchCuts {
   static constexpr uint16_t first_cut = 1, is_blocked = 64, first_narrow = 128;
   /// bit: first_cut or first_narrow; open: see open().
   void set_wall(int c, uint16_t bit, int d, int side, const WallSide& w, double open = 0);
-  void close_orphan(int d, int c);
+  void close_orphans(int d);
   void read_flags(const CutMap& map);
   bool meets_walls(const CutMap& map, int d, int i) const;
   void gather_apertures(const CutMap& map, const Index3& lower, const Index3& upper);

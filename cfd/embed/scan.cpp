@@ -37,8 +37,8 @@ class LineScan {
       : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
 
   /// within: centres between the triangle's extremes, by axis.
-  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, const Centres::Range (&within)[3]) const {
-    const Centres::Range ru = within[u_], rv = within[v_];
+  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, const std::array<Centres::Range, 3>& within) const {
+    const Centres::Range ru = within[size_t(u_)], rv = within[size_t(v_)];
     for (int iv = rv.first; iv <= rv.last; ++iv)
       for (int iu = ru.first; iu <= ru.last; ++iu) {
         const double qu = g_.centre(u_, iu), qv = g_.centre(v_, iv);
@@ -111,16 +111,19 @@ Crossings crossings(const coupling::WetSurface& s, const Lattice& g, size_t firs
   const LineScan lines[3] = {{g, 0, out[0]}, {g, 1, out[1]}, {g, 2, out[2]}};
   for (size_t f = first; f < last; ++f) {
     const auto& q = s.quads[f];
+    const auto in_box = [&](const auto&... x) {
+      std::array<Centres::Range, 3> r;
+      for (int d = 0; d < 3; ++d) r[size_t(d)] = centres.between(d, std::min({x[d]...}), std::max({x[d]...}));
+      return r;
+    };
+    // a line needs a centre along both other axes
+    const auto meets_none = [](const std::array<Centres::Range, 3>& r) { return r[0].empty() + r[1].empty() + r[2].empty() > 1; };
+    if (meets_none(in_box(s.x[size_t(q[0])], s.x[size_t(q[1])], s.x[size_t(q[2])], s.x[size_t(q[3])]))) continue;
     const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
                     !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
     for_each_triangle(s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) {
-      Centres::Range within[3];
-      int empty = 0;
-      for (int d = 0; d < 3; ++d) {
-        within[d] = centres.between(d, std::min({a[d], b[d], c[d]}), std::max({a[d], b[d], c[d]}));
-        empty += within[d].empty();
-      }
-      if (empty > 1) return;  // a line needs a centre along both other axes
+      const std::array<Centres::Range, 3> within = in_box(a, b, c);
+      if (meets_none(within)) return;
       for (int d = 0; d < 3; ++d)
         if (g.active(d) || d == 0) lines[d](face, a, b, c, corner, within);
     });
@@ -128,13 +131,27 @@ Crossings crossings(const coupling::WetSurface& s, const Lattice& g, size_t firs
   return out;
 }
 
-/// By line and along it.
-void sort(std::vector<Crossing>& crossings) {
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-    if (a.line != b.line) return a.line < b.line;
-    if (a.i != b.i) return a.i < b.i;
-    return a.at != b.at ? a.at < b.at : a.face < b.face;
-  });
+/// Of all chunks in direction d, by line and along it.
+std::vector<Crossing> sorted(const std::vector<Crossings>& chunks, size_t d) {
+  struct Key {
+    uint64_t line;
+    double at;
+    int32_t i, face;
+    const Crossing* of;
+    bool operator<(const Key& o) const {
+      if (line != o.line) return line < o.line;
+      if (i != o.i) return i < o.i;
+      return at != o.at ? at < o.at : face < o.face;
+    }
+  };
+  std::vector<Key> keys;
+  for (const Crossings& chunk : chunks)
+    for (const Crossing& x : chunk[d]) keys.push_back({x.line, x.at, x.i, x.face, &x});
+  std::sort(keys.begin(), keys.end());
+  std::vector<Crossing> all;
+  all.reserve(keys.size());
+  for (const Key& k : keys) all.push_back(*k.of);
+  return all;
 }
 
 /// body(first, last) for each run of crossings with equal key.
@@ -176,8 +193,7 @@ bool scan(const coupling::WetSurface& surface, const Lattice& lattice, CutMap& m
     part[size_t(i)] = crossings(surface, lattice, first, std::min(first + chunk, faces));
   });
   parallel_for_dynamic(3, [&](int64_t d) {
-    for (const Crossings& p : part) found[d].insert(found[d].end(), p[size_t(d)].begin(), p[size_t(d)].end());
-    sort(found[d]);
+    found[d] = sorted(part, size_t(d));
   });
   auto line_of = [](const Crossing& x) { return x.line; };
   bool watertight = true;

@@ -15,9 +15,12 @@ bool find_shocks(Patch& patch) {
   const int g[3] = {s.used[0], s.used[1], s.used[2]};
   for (int k = -g[2]; k < s.n[2] + g[2]; ++k)
     for (int j = -g[1]; j < s.n[1] + g[1]; ++j) {
+      const bool in_k = k >= 0 && k < s.n[2], in_j = j >= 0 && j < s.n[1];
+      if (!in_k && !in_j) continue;  // no face is there
+      const int x = in_k && in_j ? g[0] : 0;
       const double* p = patch.row(Prim::p, k, j);
       double* out = patch.row(Prim::shock, k, j);
-      for (int i = -g[0]; i < s.n[0] + g[0]; i += Pack::size) {
+      for (int i = -x; i < s.n[0] + x; i += Pack::size) {
         Pack jump(0.0);
         for (int d = 0; d < 3; ++d) {
           if (!s.used[size_t(d)]) continue;
@@ -26,7 +29,7 @@ bool find_shocks(Patch& patch) {
         }
         const auto in = jump > Pack(0.0);
         select(in, Pack(1.0), Pack(0.0)).store(out + i);
-        for (int l = 0; l < std::min(Pack::size, s.n[0] + g[0] - i); ++l) found = found || in[l];
+        for (int l = 0; l < std::min(Pack::size, s.n[0] + x - i); ++l) found = found || in[l];
       }
     }
   return found;
