@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bw::csd {
 
@@ -27,7 +28,9 @@ std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& q) {
       if (change < 0.25 * before && far > beside + 4 * change) return std::nullopt;  // it converges there: beside
       before = change;
       if (i < 11) continue;
-      if (change > 1e-12) return std::nullopt;  // as far from the face as it is curved
+      // round-off of coordinates far from the origin, in sizes of the face
+      const double noise = 8 * std::numeric_limits<double>::epsilon() * norm(x) / std::sqrt(std::min(a, c));
+      if (change > 1e-12 + noise) return std::nullopt;  // as far from the face as it is curved
     }
     if (std::fabs(s) > beside || std::fabs(t) > beside) return std::nullopt;
     const Vec3 area = cross(ps, pt);

@@ -33,6 +33,21 @@ TEST(Contact, FootOfAPerpendicular) {
   EXPECT_LT(norm(x - p - found->gap * found->normal), 1e-13);  // what the angular momentum needs
 }
 
+/// Faces of half a millimetre far from the origin: round-off of the coordinates is many times Newton's own.
+TEST(Contact, FootFarFromTheOrigin) {
+  for (const double far : {0.0, 1.0, 30.0, 1000.0}) {
+    const double h = 5e-4;
+    const auto place = [&](const Vec3& x) { return Vec3{far + h * x.x, -far + h * x.y, 2 * far + h * (x.z + 0.1 * x.x * x.y)}; };
+    const std::array<Vec3, 4> face{place({0, 0, 0}), place({1, 0, 0}), place({1, 1, 0}), place({0, 1, 0})};
+    for (const double at : {0.1, 0.37, 0.83}) {
+      const auto foot = foot_on(place({at, 0.6, -0.05}), face);
+      ASSERT_TRUE(foot) << far << " " << at;
+      EXPECT_LT(foot->gap, 0);
+      EXPECT_NEAR(foot->gap, -0.05 * h, 0.002 * h + 1e-15 * far);
+    }
+  }
+}
+
 /// Two boxes that fly towards each other along x, the second turned, meshes that don't match.
 Model pair_of_boxes(double offset, double turned, const ContactInput& input, bool is_rigid) {
   Mesh a = box({-5e-3, -5e-3, -5e-3}, {5e-3, 5e-3, 5e-3}, {3, 3, 3});
