@@ -64,7 +64,7 @@ class CutKernel {
              at != last && (at = static_cast<const uint8_t*>(std::memchr(at, 1, size_t(last - at)))); ++at) {
           const int i = int(at - row);
           const Cell x = cell_at(k, j, i);
-          if (patch.shocked) patch.row(Prim::shock, k, j)[i] = 0;  // it has seen states behind the wall
+          if (patch.shocked) patch.row(Prim::shock, k, j)[i] = no_damping;
           if (cuts.blocked(x.c)) continue;
           const Predicted& own = predicted(x);
           faces_.give(k, j, i, own.half.data(), own.slope[0]);

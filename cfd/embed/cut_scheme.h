@@ -48,7 +48,7 @@ struct WallLoad {
 class CutScheme {
  public:
   virtual ~CutScheme() = default;
-  /// What BlockKernel::advance then takes; valid until the next. Row Prim::shock becomes 0 beside walls.
+  /// What BlockKernel::advance then takes; valid until the next. Nothing is damped beside walls (cfd/scheme/carbuncle.h).
   virtual const CutFaces& prepare(Patch& patch, const PatchCuts& cuts, double dt) = 0;
   /// After prepare() and BlockKernel::advance with the same patch, flow and dt: adds what walls give through cut faces to
   /// `change`, which means nothing in blocked cells. exchange, and links unless nullptr: added to.

@@ -39,7 +39,7 @@ struct Prim {
     stored,
     stored_energy = stored,  ///< of a patch that burns: energy per mass of material 1 still to be released [J/kg]
     order,                   ///< of a patch with limited cells: 1, or 0 where the cell is first order
-    shock,                   ///< of a patch with shocks: 1 where one crosses the cell, else 0
+    shock,                   ///< of a patch with shocks: 1 where one crosses the cell, else 0; beside walls: cfd/scheme/carbuncle.h
     two_rows,                ///< rows of one or two materials
     most = 11 + 3 * most_materials
   };

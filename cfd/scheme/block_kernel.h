@@ -239,7 +239,7 @@ class BlockKernel {
         F[Cons::rhoE] += F[Cons::arho1] * (T(0.5) * (Lane<T>::load(f.z_low + i) + Lane<T>::load(f.z_high + i)));
     if constexpr (!Flow::mixed)
       if (f.shock_low) {
-        const T in_shock = max(Lane<T>::load(f.shock_low + i), Lane<T>::load(f.shock_high + i));
+        const T in_shock = in_shock_between(Lane<T>::load(f.shock_low + i), Lane<T>::load(f.shock_high + i));
         if (any(in_shock > T(0)))
           damp_along_shock<axis, Flow>(L, R, max(Lane<T>::load(f.c_low + i), Lane<T>::load(f.c_high + i)), in_shock, F);
       }

@@ -31,6 +31,15 @@ template <int axis, class Flow, class T>
   F[GasCons::rhoE] -= T(0.5) * mass * (v_n * v_n + v_1 * v_1 + v_2 * v_2) + shear_1 * v_1 + shear_2 * v_2;
 }
 
+/// Row Prim::shock of a cell that a wall cuts off from a neighbour: nothing is damped at its faces, since the row saw
+/// states behind the wall, and the shock before a body would be drawn to it.
+inline constexpr double no_damping = -2;
+/// Damping at the face between cells with these values of the row: 1 or 0.
+template <class T>
+T in_shock_between(T low, T high) {
+  return max(min(low + high, T(1)), T(0));
+}
+
 /// Row Prim::shock of a filled patch, one layer of ghosts; whether a shock crosses any of its cells. Nothing in one
 /// dimension.
 bool find_shocks(Patch& patch);
