@@ -327,8 +327,11 @@ void Sweep::refill(State& s, std::vector<int>& changed, Swept& swept) {
                 usable(setup_.medium, f.U);
     });
     for (const Filled& f : filled) {
-      if (!f.found) continue;
       const Place at = place_of(f.cell);
+      if (!f.found) {  // it opens with what it held
+        s.info[size_t(at.block)].material = 0;
+        continue;
+      }
       for (int q = 0; q < s.rows(); ++q) {
         s.block(at.block, q)[at.cell] = f.U[q];
         s.spare(at.block)[size_t(q) * size_t(shape.cells()) + at.cell] = f.U[q];  // see UpdateInput::others_hold
@@ -353,7 +356,9 @@ void Sweep::note(const double (&U)[Cons::most], BlockInfo& info) const {
     if (s.used[size_t(d)]) rate += (std::abs(W[Prim::v + d]) + W[Prim::c]) / s.h[d];
   info.rate = std::max(info.rate, rate);
   info.at_rest = 0;
-  if (setup_.medium.material_of(U) != info.material) info.material = 0;
+  const int material = setup_.medium.material_of(U);
+  if (info.material == BlockInfo::no_fluid) info.material = material;
+  if (material != info.material) info.material = 0;
 }
 
 void Sweep::run_blocks(State& s, const std::vector<int>& blocks, bool first_order) {

@@ -88,7 +88,7 @@ class Patch {
   bool burns = false;    ///< row Prim::stored_energy is filled
   bool limited = false;  ///< row Prim::order is filled
   bool shocked = false;  ///< row Prim::shock is filled
-  int material = 0;  ///< 1, 2 ...: the block and all ghosts hold this material alone (alpha exactly 1 or 0); 0: mixed
+  int material = 0;  ///< 1, 2 ...: open cells of the block and all ghosts hold this material alone (alpha exactly 1 or 0); 0: mixed
 
  private:
   size_t offset(int variable, int k, int j) const {

@@ -26,7 +26,7 @@ struct UpdateInput {
 
 struct UpdateResult {
   BlockInfo info;
-  int gas = 0;         ///< 1, 2 ...: the whole block was updated as this gas alone
+  int gas = 0;         ///< 1, 2 ...: all open cells were updated as this gas alone
   int64_t bad = 0;     ///< cells whose state can't be used; marked
   int first_bad = -1;  ///< the first of them
 };

@@ -382,12 +382,22 @@ void CutCellKernel::correct(const Patch& patch, const GasFlow& flow, double dt, 
 }
 
 void CutCellKernel::book_sides(BlockChange& change) {
-  sum_sides(shape_, change.book_sides, change, [&](int k, int j, int i, int d, int upper, double* sum) {
-    const Cell x = cell_at(k, j, i);
-    if (slot_[size_t(x.c)] == closed) return;
-    const Flux F = upper ? face(x, moved(x, d, 1), d, true) : face(moved(x, d, -1), x, d, false);
-    for (size_t q = 0; q < F.size(); ++q) sum[flow_->cons_row(int(q))] += F[q];
-  });
+  for (int d = 0; d < 3; ++d)
+    for (int upper = 0; upper < 2; ++upper) {
+      if (!shape_.used[size_t(d)] || !(change.book_sides >> (2 * d + upper) & 1)) continue;
+      double(&sum)[Cons::most] = change.side[2 * d + upper];
+      std::fill(sum, sum + change.rows, 0.0);
+      Index3 first{0, 0, 0}, last = shape_.n;
+      (upper ? first : last)[size_t(d)] = upper ? shape_.n[size_t(d)] - 1 : 1;
+      for (int k = first[2]; k < last[2]; ++k)
+        for (int j = first[1]; j < last[1]; ++j)
+          for (int i = first[0]; i < last[0]; ++i) {
+            const Cell x = cell_at(k, j, i);
+            if (slot_[size_t(x.c)] == closed) continue;
+            const Flux F = upper ? face(x, moved(x, d, 1), d, true) : face(moved(x, d, -1), x, d, false);
+            for (size_t q = 0; q < F.size(); ++q) sum[flow_->cons_row(int(q))] += F[q];
+          }
+    }
 }
 
 }  // namespace bw::cfd

@@ -65,11 +65,15 @@ class CutKernel {
           const int i = int(at - row);
           const Cell x = cell_at(k, j, i);
           if (patch.shocked) patch.row(Prim::shock, k, j)[i] = no_damping;
-          if (cuts.blocked(x.c)) continue;
+          const bool in_block = inside && i >= 0 && i < shape_.n[0];
+          if (cuts.blocked(x.c)) {
+            if (in_block) shut_sides(k, j, i);
+            continue;
+          }
           const Predicted& own = predicted(x);
           faces_.give(k, j, i, own.half.data(), own.slope[0]);
           shut_faces(x, k, j, i);
-          if (inside && i >= 0 && i < shape_.n[0]) beside_.push_back({x, {i, j, k}});
+          if (in_block) beside_.push_back({x, {i, j, k}});
         }
       }
     return faces_;
@@ -180,6 +184,15 @@ class CutKernel {
         faces_.shut(d, d == 2 ? face : k, d == 1 ? face : j, d == 0 ? face : i);
       }
     }
+  }
+
+  /// Those of the faces of the blocked cell (k, j, i) that lie on the block's sides: nothing is booked there.
+  void shut_sides(int k, int j, int i) {
+    const int at[3] = {i, j, k};
+    for (int d = 0; d < 3; ++d)
+      for (const int face : {0, shape_.n[size_t(d)]})
+        if (shape_.used[size_t(d)] && at[d] + (face > 0) == face)
+          faces_.shut(d, d == 2 ? face : k, d == 1 ? face : j, d == 0 ? face : i);
   }
 
   /// sign: 1 through the lower face of cell x, which is (i, j, k) of the block, -1 through its upper one.

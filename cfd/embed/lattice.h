@@ -27,7 +27,7 @@ struct Lattice {
 class Centres {
  public:
   explicit Centres(const Lattice& g) {
-    for (int d = 0; d < 3; ++d) over_h_[d] = 1 / g.h[d], lower_[d] = g.lower[d] * over_h_[d] + 0.5, n_[d] = g.n[size_t(d)];
+    for (int d = 0; d < 3; ++d) over_h_[d] = 1 / g.h[d], lower_[d] = g.lower[d], n_[d] = g.n[size_t(d)];
   }
   struct Range {
     int first, last;  ///< first > last: none
@@ -37,8 +37,8 @@ class Centres {
   Range between(int d, double lower, double upper) const {
     constexpr double hair = 1e-9;
     const double n = n_[d];
-    return {int(std::clamp(std::ceil(lower * over_h_[d] - lower_[d] - hair), 0.0, n)),
-            int(std::clamp(std::floor(upper * over_h_[d] - lower_[d] + hair), -1.0, n - 1))};
+    return {int(std::clamp(std::ceil((lower - lower_[d]) * over_h_[d] - 0.5 - hair), 0.0, n)),
+            int(std::clamp(std::floor((upper - lower_[d]) * over_h_[d] - 0.5 + hair), -1.0, n - 1))};
   }
 
  private:

@@ -106,7 +106,6 @@ void PatchCuts::close_orphans(int d) {
         const WallSide& w = own_.emplace_back(WallSide{0.5, n, {}, -1});
         set_wall(c, first_cut, d, 1, w);
         set_wall(c + step_[d], first_cut, d, 0, w);
-        ++orphans_;
       }
     }
 }
@@ -117,7 +116,6 @@ void PatchCuts::gather(const CutMap& map, const GhostRules& rules, const Index3&
   walls_.clear();
   own_.clear();
   open_.clear();
-  orphans_ = 0;
   Index3 lower = origin, upper;
   for (size_t d = 0; d < 3; ++d) {
     const int n = map.lattice().n[d];

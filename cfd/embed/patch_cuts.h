@@ -39,8 +39,7 @@ class PatchCuts {
   const uint8_t* touched() const { return touched_.data(); }  ///< [size()]
   /// Until the map that it was gathered from changes.
   const WallSide& wall(int c, int d, int side) const { return *walls_[size_t(wall_[2 * d + side][size_t(c)])]; }
-  bool any() const { return any_; }         ///< anything but open fluid?
-  int orphans() const { return orphans_; }  ///< links into metal that no face cuts (open surfaces)
+  bool any() const { return any_; }  ///< anything but open fluid?
   /// Is a cell of the block itself blocked? [k][j][i], 1 or 0. Is any?
   bool copy_blocked(uint8_t* out) const;
   const BlockShape& shape() const { return shape_; }
@@ -75,7 +74,6 @@ class PatchCuts {
   std::deque<WallSide> own_;            ///< reflected ones, and those that no face makes
   std::vector<double> open_;  ///< [walls_]
   bool any_ = false;
-  int orphans_ = 0;
 };
 
 }  // namespace bw::cfd

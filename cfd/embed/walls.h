@@ -5,7 +5,7 @@
 //   dt = min(dt, walls.largest_step());
 //   each block with walls.near(...):       // in any order, on any thread
 //     cuts.gather(walls.map(), walls.rules(), first_cell);
-//     BlockKernel::advance; CutScheme::correct;
+//     CutScheme::prepare; BlockKernel::advance with its CutFaces; CutScheme::correct;
 //     for (i in walls.probes_of(...)) walls.set_load(i, scheme.load(...));
 //   loads = walls.loads(dt, ...);          // after a sum of walls.values() over ranks
 //   walls.end(x_end);                      // the nodes have arrived

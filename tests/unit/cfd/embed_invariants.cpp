@@ -43,6 +43,26 @@ TEST(EmbedInvariants, UniformFlowWithComovingWalls) {  // F13a
   EXPECT_GT(fresh, 300);
 }
 
+/// What stands in metal is in no book: not through the sides of the domain that a body goes through either.
+TEST(EmbedInvariants, SidesAreBookedWhereTheyAreOpen) {
+  for (const GhostRule rule : {GhostRule::mirror, GhostRule::copy}) {
+    double side[2][6][Cons::count];
+    for (const int wild : {0, 1}) {
+      OneBlock<TwoGases> b({{}, {0.05, 0.05, 0.05}, {16, 12, 20}}, {}, rule);
+      b.paint([](const Vec3& x) { return gas(1.2, {30, 20 * x.y, -10}, 1e5 * (1 + x.z)); });
+      b.place(box({-0.2, 0.21, 0.33}, {1.1, 0.43, 0.62}, 4));  // from side to side along x
+      b.for_cells([&](int k, int j, int i) {
+        if (wild && b.blocked(k, j, i)) b.set(k, j, i, gas(7e3, {900, -400, 800}, 1e12));
+      });
+      b.change.book_sides = 63;
+      b.advance(1e-6);
+      for (int n = 0; n < 6; ++n) std::copy_n(b.change.side[n], int(Cons::count), side[wild][n]);
+    }
+    for (int n = 0; n < 6; ++n)
+      for (int q = 0; q < Cons::count; ++q) EXPECT_EQ(side[0][n][q], side[1][n][q]) << n << " " << q;
+  }
+}
+
 TEST(EmbedInvariants, GasAtRestInTiltedBox) {  // F13b
   OneBlock<TwoGases> b({{}, {0.05, 0.05, 0.05}, {20, 20, 20}}, {});
   b.paint([](const Vec3&) { return gas(1.2, {}, 1e5); });
