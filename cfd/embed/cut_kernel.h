@@ -24,7 +24,7 @@
 
 #include "cfd/embed/cut_scheme.h"
 #include "cfd/embed/mirror.h"
-#include "cfd/embed/orifice.h"
+#include "cfd/embed/jet_flux.h"
 #include "cfd/embed/wall_gas.h"
 #include "cfd/scheme/beside_walls.h"
 
@@ -358,52 +358,15 @@ class CutKernel {
     return f;
   }
 
-  /// Flux through a narrow opening (cfd/embed/orifice.h) that moves with v_wall.
+  /// Flux through a narrow opening that moves with v_wall.
   Face jet_face(Cell low, Cell high, int d, const Vec3& v_wall, double open) {
-    State w[2] = {predicted(low).half, predicted(high).half};
-    double K[2], rest[2];
-    for (int i = 0; i < 2; ++i) {
-      K[i] = std::max(gas_->stiffness(w[i]), 1e-12 * w[i][Gas::p]);
-      const double towards = std::max((i ? -1 : 1) * (w[i][size_t(Gas::v + d)] - v_wall[d]), 0.0);
-      rest[i] = w[i][Gas::p] + 0.5 * Gas::rho(w[i]) * towards * towards;
-    }
-    const int from = rest[1] > rest[0] ? 1 : 0;
-    const double sign = from ? -1 : 1;
-    const State &up = w[from], &other = w[1 - from];
-    const Vec3 relative = Gas::velocity(up) - v_wall;
-    Jet jet{0, 0, 0.5 * (up[Gas::p] + other[Gas::p])};
-    if (const double difference = rest[from] - other[Gas::p]; difference > 0) {
-      jet = cfd::jet(Gas::rho(up), up[Gas::p], K[from], gas_->eos.G(up), std::max(sign * relative[d], 0.0),
-                     other[Gas::p]);
-      // a step must not carry more than evens the pressures out
-      const double most = 0.5 * difference * Gas::rho(up) / (K[from] * open * lambda_[d]);
-      if (jet.mass > most) jet.mass = most;
-    }
-    const double rho = Gas::rho(up), flow = sign * jet.mass, speed = flow / rho;
-    const double inner = gas_->eos.G(up) * up[Gas::p] + gas_->pi(up), own = inner + 0.5 * rho * dot(relative, relative);
-    Vec3 momentum = flow * relative;
-    momentum[d] = jet.mass * jet.speed + jet.pressure;
-    const double energy = flow * (own + up[Gas::p]) / rho;
-    // from the wall's frame to that of the grid, which moves across the opening with -v_wall
-    const double v_grid = v_wall[d];
+    const State w[2] = {predicted(low).half, predicted(high).half};
+    double stored[2] = {0, 0};
+    if (patch_->burns)
+      for (const int i : {0, 1}) stored[i] = patch_->row(Prim::stored_energy, 0, 0)[(i ? high : low).p];
     Face f;
-    f.v = speed + v_grid;
-    std::fill(f.F, f.F + n_flux, 0.0);
-    for (int k = 0; k < Gas::densities; ++k) f.F[Cons::arho(k)] = up[size_t(FaceRow::arho(k))] * f.v;
-    const Vec3 v_up = Gas::velocity(up);
-    constexpr int mom = Flow::mixed ? int(Cons::mom) : int(GasCons::mom);
-    for (int e = 0; e < 3; ++e) f.F[mom + e] = momentum[e] + flow * v_wall[e] + v_grid * rho * v_up[e];
-    constexpr int E = Flow::mixed ? int(Cons::rhoE) : int(GasCons::rhoE);
-    f.F[E] = energy + dot(momentum, v_wall) + 0.5 * flow * dot(v_wall, v_wall) +
-             v_grid * (inner + 0.5 * rho * dot(v_up, v_up));
-    if constexpr (Flow::mixed) {
-      f.F[Cons::alpha1] = up[Prim::alpha1] * f.v;
-      if constexpr (Flow::materials > 2)
-        for (int k = 1; k < Flow::materials; ++k) f.F[Cons::alpha(k)] = up[size_t(FaceRow::alpha(k))] * f.v;
-      if (patch_->burns) f.F[E] += f.F[Cons::arho1] * patch_->row(Prim::stored_energy, 0, 0)[(from ? high : low).p];
-    }
+    f.v = lambda_[d] * jet_flux(*gas_, w, d, v_wall, open, lambda_[d], stored, f.F);
     for (double& F : f.F) F *= lambda_[d];
-    f.v *= lambda_[d];
     return f;
   }
 
