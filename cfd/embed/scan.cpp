@@ -30,14 +30,26 @@ struct Face {
   bool thin;
 };
 
+using Ranges = std::array<Centres::Range, 3>;  // by axis
+
+/// In the smallest box around the points.
+template <class... Points>
+Ranges centres_in_box(const Centres& centres, const Points&... x) {
+  Ranges r;
+  for (int d = 0; d < 3; ++d) r[size_t(d)] = centres.between(d, std::min({x[d]...}), std::max({x[d]...}));
+  return r;
+}
+/// A grid line through the box needs a centre along both other axes.
+bool meets_no_line(const Ranges& r) { return r[0].empty() + r[1].empty() + r[2].empty() > 1; }
+
 /// Lines of direction d through one triangle of a face.
 class LineScan {
  public:
   LineScan(const Lattice& g, int d, std::vector<Crossing>& out)
       : g_(g), d_(d), u_(d == 0 ? 1 : 0), v_(d == 2 ? 1 : 2), out_(out) {}
 
-  /// within: centres between the triangle's extremes, by axis.
-  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, const std::array<Centres::Range, 3>& within) const {
+  /// within: centres in the triangle's box.
+  void operator()(const Face& f, const Vec3& a, const Vec3& b, const Vec3& c, int corner, const Ranges& within) const {
     const Centres::Range ru = within[size_t(u_)], rv = within[size_t(v_)];
     for (int iv = rv.first; iv <= rv.last; ++iv)
       for (int iu = ru.first; iu <= ru.last; ++iu) {
@@ -111,19 +123,13 @@ Crossings crossings(const coupling::WetSurface& s, const Lattice& g, size_t firs
   const LineScan lines[3] = {{g, 0, out[0]}, {g, 1, out[1]}, {g, 2, out[2]}};
   for (size_t f = first; f < last; ++f) {
     const auto& q = s.quads[f];
-    const auto in_box = [&](const auto&... x) {
-      std::array<Centres::Range, 3> r;
-      for (int d = 0; d < 3; ++d) r[size_t(d)] = centres.between(d, std::min({x[d]...}), std::max({x[d]...}));
-      return r;
-    };
-    // a line needs a centre along both other axes
-    const auto meets_none = [](const std::array<Centres::Range, 3>& r) { return r[0].empty() + r[1].empty() + r[2].empty() > 1; };
-    if (meets_none(in_box(s.x[size_t(q[0])], s.x[size_t(q[1])], s.x[size_t(q[2])], s.x[size_t(q[3])]))) continue;
+    if (meets_no_line(centres_in_box(centres, s.x[size_t(q[0])], s.x[size_t(q[1])], s.x[size_t(q[2])], s.x[size_t(q[3])])))
+      continue;
     const Face face{s, q, int32_t(f), coupling::area_vector(s.x, q),
                     !s.flags.empty() && (s.flags[f] & coupling::face_thin) != 0};
     for_each_triangle(s.x, q, [&](const Vec3& a, const Vec3& b, const Vec3& c, int corner, int) {
-      const std::array<Centres::Range, 3> within = in_box(a, b, c);
-      if (meets_none(within)) return;
+      const Ranges within = centres_in_box(centres, a, b, c);
+      if (meets_no_line(within)) return;
       for (int d = 0; d < 3; ++d)
         if (g.active(d) || d == 0) lines[d](face, a, b, c, corner, within);
     });

@@ -28,14 +28,21 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
   if (conservative()) sent_x_ = surface.x;
   const bool same = placed_ && surface.topo_version == surface_.topo_version && x.size() == surface_.x.size();
   if (same && x == surface_.x) {
-    surface_.v = v;
-    update_velocities(surface_, map_);
+    if (v != surface_.v) {
+      surface_.v = v;
+      update_velocities(surface_, map_);
+      const auto renew_probe = [&](int64_t i) {
+        Probe& p = probes_[size_t(i)];
+        p.v = coupling::face_mean(v, surface_.quads[size_t(p.face)]);
+      };
+      if (probes_current_) parallel_for(int64_t(probes_.size()), renew_probe);
+    }
   } else {
     std::vector<Vec3> before = x;  // where the nodes were, or their ancestors
     if (same) {
       before = std::move(surface_.x);
     } else {
-      const coupling::NodePlaces now(surface);
+      coupling::NodePlaces now(surface);
       std::vector<Vec3> v_last = v_last_.empty() ? v_last_ : v;
       for (size_t i = 0; i < x.size() && placed_; ++i)
         if (const int64_t old = places_.find_or_ancestor(surface, i, now); old >= 0) {
@@ -44,7 +51,7 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
         }
       v_last_ = std::move(v_last);
       surface_ = surface;
-      places_ = now;
+      places_ = std::move(now);
       lips_.pair(surface_);
     }
     surface_.x = x;
@@ -54,10 +61,6 @@ void Walls::begin(const coupling::WetSurface& surface, const std::vector<Vec3>& 
   if (cut_ && !placed_) cut_->place(surface_, x);
   placed_ = true;
   if (!probes_current_) place_probes();
-  parallel_for(int64_t(probes_.size()), [&](int64_t i) {
-    Probe& p = probes_[size_t(i)];
-    p.v = coupling::face_mean(surface_.v, surface_.quads[size_t(p.face)]);
-  });
   values_.assign(2 * probes_.size(), 0.0);
 }
 

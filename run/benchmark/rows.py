@@ -82,16 +82,18 @@ def taylor_j2():
     """Taylor bar of S7, J2, no filter; with the self-adjoint filter; two threads over two pinned copies with one"""
     result, _ = solid_rows("taylor_j2", bar(2000))
     filtered, _ = solid_rows("taylor_j2_filter", bar(2000, filter="self_adjoint"))
-    return result + share_of_peak("taylor_j2", result) + filtered + copies(bar(2000))
+    return result + share_of_peak("taylor_j2", result) + filtered + copies("taylor_j2", bar(2000), "solid")
 
 
-def copies(text):
-    """As many copies as cores, each on its own core with one thread, at the same time; and all threads in one run just after: three times in turn,
-    the medians."""
+def copies(name, text, program, by_ranks=False):
+    """As many copies as cores, each on its own core with one thread, at the same time; all threads in one run just after, and with by_ranks as many
+    ranks: three times in turn, the medians."""
     if CORES < 2:
         return []
     environment = os.environ | dict(item.split("=", 1) for item in subprocess.run(
         [str(ROOT / "run" / "breakwave"), "--environment"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
+
+    binary, item = ("csd", "element") if program == "solid" else ("cfd", "cell")
 
     def together():
         folders, running = [], []
@@ -100,17 +102,22 @@ def copies(text):
             work.mkdir(parents=True, exist_ok=True)
             (work / "case.toml").write_text(text)
             folders.append(work / "out")
-            running.append(subprocess.Popen([str(BUILD / "bin" / "csd"), "case.toml", "--threads", "1"], cwd=work, env=environment,
+            running.append(subprocess.Popen([str(BUILD / "bin" / binary), "case.toml", "--threads", "1"], cwd=work, env=environment,
                                             preexec_fn=lambda core=core: os.sched_setaffinity(0, {core}), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
         if any([process.wait() for process in running]):
             raise RunFailed("a copy failed")
-        return sum(rate(folder, "solid", "element") for folder in folders)
+        return sum(rate(folder, program, item) for folder in folders)
 
-    def threaded():
-        return rate(run("bench_copies_threads", text, threads=CORES, only="solid").directory, "solid", "element")
-    pairs = [(together(), threaded()) for _ in range(3)]
-    return [row("taylor_j2_copies", statistics.median(both for both, _ in pairs), "M element-steps/s", CORES),
-            row("taylor_j2_threads_over_copies", statistics.median(threads / both for both, threads in pairs), "ratio", CORES)]
+    def shared(kind, **how):
+        return rate(run(f"bench_copies_{kind}", text, only=program, **how).directory, program, item)
+    kinds = {"threads": {"threads": CORES}} | ({"ranks": {"threads": 1, "ranks": str(CORES)}} if by_ranks else {})
+    turns = [(together(), {kind: shared(kind, **how) for kind, how in kinds.items()}) for _ in range(3)]
+    unit = "M element-steps/s" if program == "solid" else "M cell-updates/s"
+    rows = [row(f"{name}_copies", statistics.median(all_copies for all_copies, _ in turns), unit, CORES)]
+    for kind in kinds:
+        threads, ranks = (CORES, 1) if kind == "threads" else (1, CORES)
+        rows.append(row(f"{name}_{kind}_over_copies", statistics.median(rates[kind] / all_copies for all_copies, rates in turns), "ratio", threads, ranks))
+    return rows
 
 
 def taylor_jc():
@@ -186,8 +193,9 @@ def busy(name, density):
 
 
 def air_64():
-    """Air, 64^3, every block busy"""
-    return fluid_rows("air_64", cube(64, 200, fluid.material("air", reference.GAS), busy("air", 1.2)))
+    """Air, 64^3, every block busy; two threads and two ranks over two pinned copies"""
+    text = cube(64, 200, fluid.material("air", reference.GAS), busy("air", 1.2))
+    return fluid_rows("air_64", text) + copies("air_64", text, "fluid", by_ranks=True)
 
 
 def air_128():
