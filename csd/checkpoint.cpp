@@ -87,6 +87,7 @@ std::string write_checkpoint(const Case& cs, Model& m, const Progressed& run, Ou
   const Timed timed("checkpoint");
   const Comm comm = comm_of(m);
   complete(m);
+  if (m.physics.rigid && m.physics.loads) m.physics.rigid->complete(*m.physics.loads);
   const std::string& folder = cs.run.output.directory;
   const std::string path = checkpoint_path(folder, program, m.state.step);
   CheckpointWriter file(path, {program, layout, case_hash(cs.file), m.state.step, m.state.t}, comm);

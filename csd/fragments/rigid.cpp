@@ -161,7 +161,7 @@ void Rigid::take_forces(const Loads* loads, State& s, double dt) {
 }
 
 double Rigid::load_power(const State& s) const {
-  return asks_all_ || !s.local.all_due() ? 0 : s.local.shortest() * followers_.power(bodies_);
+  return asks_all_ || !s.local.all_due() ? 0 : s.local.shortest() * followers_.power();
 }
 
 double Rigid::add_drag(size_t b, State& s, double dt) {
@@ -250,8 +250,13 @@ void Rigid::renew_block(Model& m, int block) {
 void Rigid::renew_asked(Model& m, size_t first) {
   Physics& ph = m.physics;
   State& s = m.state;
-  asks_all_ = follows_all_ || input_.drag || !ph.conditions.empty() || ph.relaxation || ph.mass_scaling || ph.contact;
-  if (ph.loads) ph.loads->leave(asks_all_ ? std::vector<char>{} : is_rigid_);
+  asks_all_ = follows_all_ || input_.drag || !ph.conditions.empty() || ph.relaxation || ph.mass_scaling || ph.contact ||
+              (ph.loads && !ph.loads->are_on_faces());
+  std::vector<LeftFace> left;
+  if (ph.loads) {
+    if (first == 0) complete(*ph.loads), ph.loads->leave(m.mesh, {});
+    if (!asks_all_) left = ph.loads->leave(m.mesh, is_rigid_);
+  }
   std::vector<NodeId> beside;
   std::vector<char> is_beside(is_rigid_.size(), 0);
   const Blocks& blocks = ph.elements.blocks;
@@ -264,8 +269,10 @@ void Rigid::renew_asked(Model& m, size_t first) {
           if (!is_beside[size_t(n)]) is_beside[size_t(n)] = 1, beside.push_back(n);
         }
   }
-  if (!asks_all_) {
-    followers_.append(bodies_, first, ph.loads ? &*ph.loads : nullptr);
+  if (asks_all_) {
+    followers_ = {};
+  } else {
+    followers_.append(bodies_, first, ph.loads ? &*ph.loads : nullptr, std::move(left), body_at_);
     followers_.set_beside(bodies_, beside, body_at_);
   }
   if (ph.elements.ranks) return;

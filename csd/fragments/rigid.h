@@ -86,6 +86,8 @@ class Rigid {
 
   /// x, v and f of all nodes as their bodies have them.
   void complete(State& s);
+  /// Loads' own forces at all nodes.
+  void complete(Loads& loads) const { followers_.give_back(loads); }
   /// All nodes are followed in each step from now on: another program looks at them.
   void follow_all(Model& m);
 

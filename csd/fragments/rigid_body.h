@@ -92,14 +92,15 @@ class alignas(64) RigidBody {
   RigidBody() = default;
   void renew_spin();
 
-  // what a step reads of a body comes first: one line of the cache to fly, two to be pushed
+  // what a step reads of a body comes first: one line of the cache to fly, two to be
+  // pushed, three to turn
   Vec3 x_, v_;
   double mass_ = 0;
   Motion motion_ = Motion::six_dof;
   bool is_stopped_ = false;
-  Vec3 F_, L_;  // N, kg m^2/s
+  Vec3 F_, T_;  // N, N m
   double radius_ = 0;
-  Vec3 T_, omega_;  // N m, 1/s
+  Vec3 L_, omega_;  // kg m^2/s, 1/s
   Mat3 turned_ = Mat3::identity();
   Mat3 inverse_inertia_{};  // of the nodes' masses about the centre, body's frame; zero for translation
   Attitude q_;

@@ -169,6 +169,7 @@ void Rigid::release(Model& m) {
   State& s = m.state;
   Elements& el = m.physics.elements;
   csd::complete(m);
+  if (m.physics.loads) complete(*m.physics.loads);
   std::vector<char> is_asked(size_t(m.mesh.elem_count()), 0), is_freed(size_t(m.mesh.node_count()), 0);
   size_t kept = 0;
   std::vector<std::vector<NodeId>> freed;

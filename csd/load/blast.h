@@ -59,14 +59,16 @@ struct Blast {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    set_.for_each(mesh, x, f, [&](size_t i) {
-      if (t - start_time < wave_[i].arrival || t - start_time >= wave_[i].arrival + wave_[i].duration) return;
-      const auto n = mesh.nodes_of(set_[i]);
-      const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
-      const Vec3 area = cross(corners[2] - corners[0], corners[3] - corners[1]), ray = centre_of(corners) - centre;
-      const double cosine = -dot(area, ray) / (norm(area) * norm(ray));
-      add_pressure(n, corners, wave_[i].pressure(cosine, t - start_time), f);
-    });
+    set_.add(*this, mesh, x, t, f);
+  }
+  LoadedFaces& set() { return set_; }
+  double at(double t) const { return t - start_time; }
+  template <class Force>
+  void on_face(size_t i, const std::array<Vec3, 4>& x, double since, const Force& force) const {
+    if (since < wave_[i].arrival || since >= wave_[i].arrival + wave_[i].duration) return;
+    const Vec3 area = cross(x[2] - x[0], x[3] - x[1]), ray = centre_of(x) - centre;
+    const double cosine = -dot(area, ray) / (norm(area) * norm(ray));
+    add_pressure(x, wave_[i].pressure(cosine, since), force);
   }
 
  private:

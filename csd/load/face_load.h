@@ -21,11 +21,11 @@ inline std::array<Vec3, 4> area_shares(const std::array<Vec3, 4>& x) {
 }
 
 /// Adds the forces of the pressure p > 0 (compression positive: the one place in csd where a pressure becomes a force,
-/// with its minus sign) on a face.
-inline void add_pressure(const std::array<NodeId, 4>& nodes, const std::array<Vec3, 4>& x, double p,
-                         Field<Vec3, NodeId>& f) {
+/// with its minus sign) on a face; force(a): that of corner a so far [N].
+template <class Force>
+void add_pressure(const std::array<Vec3, 4>& x, double p, const Force& force) {
   const auto share = area_shares(x);
-  for (size_t a = 0; a < 4; ++a) f[nodes[a]] -= p * share[a];
+  for (size_t a = 0; a < 4; ++a) force(a) -= p * share[a];
 }
 
 }  // namespace bw::csd

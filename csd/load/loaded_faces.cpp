@@ -30,10 +30,30 @@ LoadedFaces::LoadedFaces(const Mesh& mesh, std::vector<Face> faces) : faces_(std
   }
 }
 
+std::vector<int32_t> LoadedFaces::leave(const Mesh& mesh, const std::vector<char>& is_left) {
+  std::vector<int32_t> left;
+  if (is_left.empty()) {
+    left_.clear();
+    return left;
+  }
+  left_.resize(faces_.size(), 0);
+  for (const auto& groups : colours_)
+    for (const auto& [first, last] : groups)
+      for (size_t i = first; i < last; ++i) {
+        const NodeId n = mesh.nodes_of(faces_[i])[0];
+        const bool is_now = size_t(n) < is_left.size() && is_left[size_t(n)];
+        if (is_now && !left_[i]) left.push_back(int32_t(i));
+        left_[i] = is_now;
+      }
+  return left;
+}
+
 void LoadedFaces::fetch(const Mesh& mesh, Group group, const Field<Vec3, NodeId>& x,
                         const Field<Vec3, NodeId>& f) const {
-  for (size_t i = group.first; i < group.second; ++i)
+  for (size_t i = group.first; i < group.second; ++i) {
+    if (is_left(i)) continue;
     for (const NodeId n : mesh.nodes_of(faces_[i])) __builtin_prefetch(&x[n]), __builtin_prefetch(&f[n], 1);
+  }
 }
 
 }  // namespace bw::csd

@@ -43,27 +43,42 @@ void Loads::follow(const std::vector<NodeId>& nodes) {
   acting_ = nodes_;
 }
 
-void Loads::leave(const std::vector<char>& is_left) {
+bool Loads::are_on_faces() const {
+  return std::all_of(kinds_.begin(), kinds_.end(), [](const LoadKind& kind) {
+    return std::visit([](const auto& load) { return requires { load.faces; }; }, kind);
+  });
+}
+
+std::vector<LeftFace> Loads::leave(const Mesh& mesh, const std::vector<char>& is_left) {
   acting_.clear();
   for (const NodeId n : nodes_)
     if (size_t(n) >= is_left.size() || !is_left[size_t(n)]) acting_.push_back(n);
+  std::vector<LeftFace> left;
+  for (size_t k = 0; k < kinds_.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          if constexpr (requires { load.faces; })
+            for (const int32_t i : load.set().leave(mesh, is_left))
+              left.push_back({int32_t(k), i, mesh.nodes_of(load.set()[size_t(i)])});
+        },
+        kinds_[k]);
+  return left;
 }
 
 void Loads::add(const Mesh& mesh, double t, State& s, int64_t alone) {
+  t_ = t;
   if (!is_spread_) spread_given(mesh);
-  const auto for_loaded = [&](const auto& work) {
+  const auto for_acting = [&](const auto& work) {
     parallel_for(
-        int64_t(nodes_.size()), [&](int64_t i) { work(nodes_[size_t(i)]); }, alone);
+        int64_t(acting_.size()), [&](int64_t i) { work(acting_[size_t(i)]); }, alone);
   };
-  for_loaded([&](NodeId n) { f_[n] = {}; });
+  for_acting([&](NodeId n) { f_[n] = {}; });
   for (const auto& kind : kinds_) std::visit([&](const auto& load) { load.add(mesh, s.x, s.m, t, f_); }, kind);
-  if (given_f_.size() > 0) for_loaded([&](NodeId n) { f_[n] += given_f_[n]; });
+  if (given_f_.size() > 0) for_acting([&](NodeId n) { f_[n] += given_f_[n]; });
   if (radiation) radiation->add(mesh, s, f_, alone);
-  const auto give = [&](int64_t i) {
-    const NodeId n = acting_[size_t(i)];
+  for_acting([&](NodeId n) {
     if (s.local.is_due(n)) s.f[n] += f_[n];
-  };
-  parallel_for(int64_t(acting_.size()), give, alone);
+  });
 }
 
 double Loads::power(const State& s) const {

@@ -15,6 +15,12 @@ namespace bw::csd {
 /// Nodes whose forces a load sums, and whose velocities its work asks for; some may stand twice.
 std::vector<NodeId> nodes_of_load(const Mesh& mesh, const LoadKind& load);
 
+/// A face that somebody else sees to.
+struct LeftFace {
+  int32_t load, face;  ///< places in the list of loads, in the load's faces
+  std::array<NodeId, 4> nodes;
+};
+
 /// Loops go over the nodes that are loaded alone.
 class Loads {
  public:
@@ -42,9 +48,21 @@ class Loads {
   const Field<Vec3, NodeId>& forces() const { return f_; }
   /// It may bear a load.
   bool is_loaded(NodeId n) const { return is_loaded_[n]; }
-  /// Nodes marked [node] get no forces and count in no power from now on; somebody else sees to theirs. Later nodes are
-  /// not marked.
-  void leave(const std::vector<char>& is_left);
+  /// Whether each load is the sum of what it does on faces: then nodes may be left.
+  bool are_on_faces() const;
+  /// Nodes marked [node], to all of any face or none, get no forces and count in no power from now on, their forces()
+  /// stay as they are; later nodes are not marked. Returns the faces that were not left before, in the order in which
+  /// they added to their nodes: somebody else sees to them.
+  std::vector<LeftFace> leave(const Mesh& mesh, const std::vector<char>& is_left);
+  /// Adds to force(a) [N] what a load does at the time of the last add() to the corners of its face, which are at x [m].
+  template <class Force>
+  void add_on_face(int32_t load, int32_t face, const std::array<Vec3, 4>& x, const Force& force) const {
+    std::visit(
+        [&](const auto& l) {
+          if constexpr (requires { l.faces; }) l.on_face(size_t(face), x, l.at(t_), force);
+        },
+        kinds_[size_t(load)]);
+  }
 
   /// In a checkpoint.
   template <class A>
@@ -61,6 +79,7 @@ class Loads {
   std::vector<std::pair<Face, Vec3>> given_;
   Field<Vec3, NodeId> given_f_;    // N, of given_; empty without
   bool is_spread_ = true;          // given_f_ is up to date
+  double t_ = 0;                   // s, of the last add()
   Field<Vec3, NodeId> f_;          // N
   std::vector<NodeId> nodes_;      // ascending
   std::vector<NodeId> acting_;     // those of them that are not left

@@ -27,12 +27,13 @@ struct Pressure {
   void select(const Mesh& mesh) { set_ = {mesh, face_sets(mesh, faces, place)}; }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    const double p = table.at(t);
-    if (p == 0) return;
-    set_.for_each(mesh, x, f, [&](size_t i) {
-      const auto n = mesh.nodes_of(set_[i]);
-      add_pressure(n, {x[n[0]], x[n[1]], x[n[2]], x[n[3]]}, p, f);
-    });
+    if (at(t) != 0) set_.add(*this, mesh, x, t, f);
+  }
+  LoadedFaces& set() { return set_; }
+  double at(double t) const { return table.at(t); }
+  template <class Force>
+  void on_face(size_t, const std::array<Vec3, 4>& x, double p, const Force& force) const {
+    add_pressure(x, p, force);
   }
 
  private:

@@ -56,11 +56,13 @@ struct PressureFront {
   }
   void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    set_.for_each(mesh, x, f, [&](size_t i) {
-      const auto n = mesh.nodes_of(set_[i]);
-      const std::array<Vec3, 4> corners{x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
-      if (const double p = pressure(centre_of(corners), t); p > 0) add_pressure(n, corners, p, f);
-    });
+    set_.add(*this, mesh, x, t, f);
+  }
+  LoadedFaces& set() { return set_; }
+  double at(double t) const { return t; }
+  template <class Force>
+  void on_face(size_t, const std::array<Vec3, 4>& x, double t, const Force& force) const {
+    if (const double p = pressure(centre_of(x), t); p > 0) add_pressure(x, p, force);
   }
 
  private:

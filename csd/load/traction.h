@@ -42,13 +42,15 @@ struct Traction {
     }
     per_area_ = norm(total) > 0 ? (1 / area) * total : traction;
   }
-  void add(const Mesh& mesh, const Field<Vec3, NodeId>&, const Field<double, NodeId>&, double t,
+  void add(const Mesh& mesh, const Field<Vec3, NodeId>& x, const Field<double, NodeId>&, double t,
            Field<Vec3, NodeId>& f) const {
-    const Vec3 now = (factor ? factor->at(t) : 1.0) * per_area_;
-    set_.for_each(mesh, f, f, [&](size_t i) {
-      const auto n = mesh.nodes_of(set_[i]);
-      for (size_t a = 0; a < 4; ++a) f[n[a]] += share_[i][a] * now;
-    });
+    set_.add(*this, mesh, x, t, f);
+  }
+  LoadedFaces& set() { return set_; }
+  Vec3 at(double t) const { return (factor ? factor->at(t) : 1.0) * per_area_; }
+  template <class Force>
+  void on_face(size_t i, const std::array<Vec3, 4>&, const Vec3& now, const Force& force) const {
+    for (size_t a = 0; a < 4; ++a) force(a) += share_[i][a] * now;
   }
 
  private:

@@ -2,7 +2,10 @@
 // Loads: totals, tables, and the curves of Kingery and Bulmash against published values and their own consistency.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/app/error.h"
+#include "csd/fragments/followers.h"
 #include "solid_scene.h"
 
 namespace bw::csd {
@@ -74,7 +77,7 @@ TEST(Loads, GoOverLoadedNodesAlone) {
     for (const Face face : loaded) {
       const auto n = mesh.nodes_of(face);
       const std::array<Vec3, 4> x{s.x[n[0]], s.x[n[1]], s.x[n[2]], s.x[n[3]]};
-      if (const double p = front.pressure(centre_of(x), t); p > 0) add_pressure(n, x, p, f);
+      if (const double p = front.pressure(centre_of(x), t); p > 0) add_pressure(x, p, [&](size_t a) -> Vec3& { return f[n[a]]; });
     }
     for (const auto& [face, force] : given)
       for (const NodeId n : mesh.nodes_of(face)) f[n] += 0.25 * force;
@@ -108,6 +111,67 @@ TEST(Loads, GoOverLoadedNodesAlone) {
   s.f = Field<Vec3, NodeId>(mesh.X.size());
   loads.add(mesh, 0.7e-3, s);
   expect_all(0.7e-3);
+}
+
+/// What loads leave to a rigid body pushes it as their nodal forces did, and comes back to them.
+TEST(Loads, LeaveFacesToRigidBodies) {
+  PressureFront front;
+  front.peak = 1e9, front.speed = 1000, front.axis = {1, 0, 0}, front.faces = {"y_lower"}, front.decay = 2;
+  Pressure pressure;
+  pressure.table = {{0, 1}, {1e8, 3e8}}, pressure.faces = {"x_upper"};
+  Traction traction;
+  traction.traction = {0, 5e5, 0}, traction.faces = {"y_lower"};
+  Mesh mesh = box({0, 0, 0}, {1, 0.1, 0.5}, {10, 2, 4}, 0.1);
+  Topology topology(mesh);
+  std::vector<NodeId> nodes;  // the last layer comes away
+  const auto& end = mesh.node_sets.at("x_upper");
+  const auto is_last = [&](ElemId e) {
+    return std::ranges::any_of(mesh.hex[e], [&](NodeId n) { return std::ranges::count(end, n) > 0; });
+  };
+  for (int32_t n = 0, whole = mesh.node_count(); n < whole; ++n) {
+    std::vector<ElemId> moved;
+    const auto around = topology.elements(NodeId(n));
+    std::ranges::copy_if(around, std::back_inserter(moved), is_last);
+    if (moved.empty()) continue;
+    nodes.push_back(moved.size() == around.size() ? NodeId(n) : topology.split(mesh, NodeId(n), moved));
+  }
+  std::sort(nodes.begin(), nodes.end());
+  ASSERT_EQ(topology.find_fault(mesh), "");
+  State s;
+  s.resize(mesh.X.size(), 0);
+  s.x = mesh.X;
+  for (double& m : s.m) m = 1;
+  Loads loads(mesh, {front, pressure, traction});
+  ASSERT_TRUE(loads.are_on_faces());
+  EXPECT_FALSE(Loads(mesh, {front, Gravity{}}).are_on_faces());
+  loads.add(mesh, 1.5e-3, s);
+  const Field<Vec3, NodeId> before = loads.forces();
+  std::vector<char> is_rigid(mesh.X.size(), 0);
+  std::vector<int32_t> body_at(mesh.X.size(), -1);
+  for (const NodeId n : nodes) is_rigid[size_t(n)] = 1, body_at[size_t(n)] = 0;
+  std::vector<RigidBody> bodies{{nodes, s.x, s.v, s.m, RigidBody::Motion::six_dof}};
+  Followers followers;
+  followers.append(bodies, 0, &loads, loads.leave(mesh, is_rigid), body_at);
+  EXPECT_TRUE(loads.leave(mesh, is_rigid).empty());
+  for (const NodeId n : nodes) loads.forces()[n] = {};
+  loads.add(mesh, 1.5e-3, s);
+  for (const NodeId n : nodes) EXPECT_EQ(loads.forces()[n], Vec3{});
+  followers.take_forces(bodies, &loads);
+  RigidBody expected = bodies[0];
+  expected.take_forces(before);
+  const double size = norm(expected.acceleration_at({}));
+  EXPECT_GT(size, 1e5);
+  for (const Vec3& arm : {Vec3{}, Vec3{0.3, 0, 0}, Vec3{0, 0.2, 0.1}})
+    expect_near(bodies[0].acceleration_at(arm), expected.acceleration_at(arm), 1e-12 * size);
+  followers.kick(bodies, 1e-6);
+  double power = 0;
+  for (size_t i = 0; i < nodes.size(); ++i) power += dot(before[nodes[i]], bodies[0].velocity_at(bodies[0].arm(i)));
+  EXPECT_NEAR(followers.power(), power, 1e-12 * power);
+  followers.give_back(loads);
+  for (size_t n = 0; n < before.size(); ++n)
+    expect_near(loads.forces()[NodeId(int64_t(n))], before[NodeId(int64_t(n))], 1e-12 * 1e9);
+  loads.leave(mesh, {});
+  EXPECT_EQ(loads.leave(mesh, is_rigid).size(), mesh.face_sets.at("x_upper").size() + 2 * 4);
 }
 
 TEST(Loads, SameBitsForAnyNumberOfThreads) {
