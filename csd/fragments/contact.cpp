@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <numeric>
+#include <span>
 
 #include "common/parallel/loop.h"
 #include "csd/fragments/foot.h"
@@ -42,40 +43,77 @@ std::vector<Vec3> held_directions(const C& c) {
   return directions;
 }
 
-/// What a node is about to meet, of one group.
-void look(Model& m, const Contact::Nearby& nearby, int group, std::vector<Meeting>& found) {
+/// A pair whose node may meet the face.
+struct Near {
+  const Contact::Pair* pair;
+  Foot foot;
+  double speed;  // m/s, of one relative to the other
+};
+
+/// Between a pair's node and face; nothing if they are of one rigid body, or of one that stands still.
+std::optional<Meeting> meeting_of(Model& m, const Contact::Pair& pair, const Foot& foot) {
   const State& s = m.state;
+  const auto quad = m.mesh.nodes_of(pair.face);
+  Meeting p;
+  p.nodes = {pair.node, quad[0], quad[1], quad[2], quad[3]};
+  p.weight = {1, -foot.N[0], -foot.N[1], -foot.N[2], -foot.N[3]};
+  p.normal = foot.normal, p.gap = foot.gap, p.size = foot.size;
   auto& rigid = m.physics.rigid;
-  double nearest = 1e300;
-  const size_t first = found.size();
-  for (int32_t i = nearby.group[size_t(group)]; i < nearby.group[size_t(group) + 1]; ++i) {
-    const auto& [node, face, depth] = nearby.pairs[size_t(i)];
+  if (!rigid) return p;
+  p.place = {rigid->body_at(pair.node), rigid->body_at(quad[0])};
+  if (p.place[0] >= 0 && p.place[0] == p.place[1]) return std::nullopt;
+  for (size_t k = 0; k < 2; ++k)
+    if (p.place[k] >= 0) p.body[k] = &rigid->bodies()[size_t(p.place[k])];
+  if ((p.body[0] && p.body[0]->is_stopped()) || (p.body[1] && p.body[1]->is_stopped())) return std::nullopt;
+  p.first = p.body[0] ? 1 : 0, p.last = p.body[1] ? 1 : 5;
+  // both are pushed at one point: that of the deformable one
+  const Vec3 x = s.x[pair.node], point = p.body[0] && !p.body[1] ? x - foot.gap * foot.normal : x;
+  for (size_t k = 0; k < 2; ++k)
+    if (p.body[k]) p.arm[k] = point - p.body[k]->centre();
+  return p;
+}
+
+/// Feet of the nodes of up to Pack::size pairs; none on faces that have the node.
+Feet<Pack> feet_of(const Model& m, std::span<const Contact::Pair> pairs) {
+  std::array<int32_t, Pack::size> at[5];
+  Pack is_other;
+  for (int l = 0; l < Pack::size; ++l) {
+    const auto& [node, face, depth] = pairs[std::min(size_t(l), pairs.size() - 1)];
     const auto quad = m.mesh.nodes_of(face);
-    if (std::find(quad.begin(), quad.end(), node) != quad.end()) continue;
-    const auto foot = foot_on(s.x[node], {s.x[quad[0]], s.x[quad[1]], s.x[quad[2]], s.x[quad[3]]});
-    if (!foot || foot->gap < -depth) continue;
-    Meeting p;
-    p.nodes = {node, quad[0], quad[1], quad[2], quad[3]};
-    p.weight = {1, -foot->N[0], -foot->N[1], -foot->N[2], -foot->N[3]};
-    p.normal = foot->normal, p.gap = foot->gap, p.size = foot->size;
-    if (rigid) {
-      p.place = {rigid->body_at(node), rigid->body_at(quad[0])};
-      if (p.place[0] >= 0 && p.place[0] == p.place[1]) continue;
-      for (size_t k = 0; k < 2; ++k)
-        if (p.place[k] >= 0) p.body[k] = &rigid->bodies()[size_t(p.place[k])];
-      if ((p.body[0] && p.body[0]->is_stopped()) || (p.body[1] && p.body[1]->is_stopped())) continue;
-      p.first = p.body[0] ? 1 : 0, p.last = p.body[1] ? 1 : 5;
-      // both are pushed at one point: that of the deformable one
-      const Vec3 point = p.body[0] && !p.body[1] ? s.x[node] - foot->gap * foot->normal : s.x[node];
-      for (size_t k = 0; k < 2; ++k)
-        if (p.body[k]) p.arm[k] = point - p.body[k]->centre();
-    }
-    p.before = p.velocity(s);
-    found.push_back(p);
-    nearest = std::min(nearest, std::fabs(p.gap));
+    at[0][size_t(l)] = node;
+    for (size_t a = 0; a < 4; ++a) at[a + 1][size_t(l)] = quad[a];
+    is_other.set(l, std::find(quad.begin(), quad.end(), node) == quad.end());
   }
-  const auto is_other_side = [&](const Meeting& p) { return p.gap < -nearest - along_edge * p.size; };
-  found.erase(std::remove_if(found.begin() + std::ptrdiff_t(first), found.end(), is_other_side), found.end());
+  Vec<Pack> x[5];
+  for (size_t a = 0; a < 5; ++a) load_points(&m.state.x.data()->x, at[a].data(), x[a].x, x[a].y, x[a].z);
+  Feet<Pack> feet = feet_on(x[0], std::array{x[1], x[2], x[3], x[4]});
+  feet.found *= is_other;
+  return feet;
+}
+
+/// What the nodes of the groups [first, last) are about to meet.
+void look(Model& m, const Contact::Nearby& nearby, int first, int last, std::vector<Near>& found) {
+  const std::span<const Contact::Pair> pairs(nearby.pairs);
+  const size_t end = size_t(nearby.group[size_t(last)]);
+  size_t group = size_t(first), of_group = found.size();
+  double nearest = 1e300;
+  const auto is_other_side = [&](const Near& n) { return n.foot.gap < -nearest - along_edge * n.foot.size; };
+  for (size_t begin = size_t(nearby.group[group]); begin < end; begin += Pack::size) {
+    const size_t count = std::min(size_t(Pack::size), end - begin);
+    const Feet<Pack> feet = feet_of(m, pairs.subspan(begin, count));
+    for (size_t i = begin; i < begin + count; ++i) {
+      if (const int l = int(i - begin); feet.found[l] > 0 && !(feet.gap[l] < -pairs[i].depth)) {
+        const Foot foot = feet.of(l);
+        if (const auto meeting = meeting_of(m, pairs[i], foot)) {
+          found.push_back({&pairs[i], foot, norm(meeting->velocity(m.state))});
+          nearest = std::min(nearest, std::fabs(foot.gap));
+        }
+      }
+      if (i + 1 < size_t(nearby.group[group + 1])) continue;
+      found.erase(std::remove_if(found.begin() + std::ptrdiff_t(of_group), found.end(), is_other_side), found.end());
+      ++group, of_group = found.size(), nearest = 1e300;
+    }
+  }
 }
 
 }  // namespace
@@ -97,22 +135,24 @@ void Contact::renew_supports(const Model& m) {
 }
 
 std::vector<Meeting> Contact::find_meetings(Model& m, double dt) const {
-  const int lips = near_lips_.count(), all = lips + near_bodies_.count();
-  std::vector<std::vector<Meeting>> found(size_t((all + groups_per_chunk - 1) / groups_per_chunk));
+  const int lips = near_lips_.count(), bodies = near_bodies_.count();
+  const int lip_chunks = (lips + groups_per_chunk - 1) / groups_per_chunk,
+            body_chunks = (bodies + groups_per_chunk - 1) / groups_per_chunk;
+  std::vector<std::vector<Near>> found(size_t(lip_chunks + body_chunks));
   parallel_for_dynamic(int64_t(found.size()), [&](int64_t c) {
-    for (int g = int(c) * groups_per_chunk; g < std::min(all, int(c + 1) * groups_per_chunk); ++g)
-      if (g < lips)
-        look(m, near_lips_, g, found[size_t(c)]);
-      else
-        look(m, near_bodies_, g - lips, found[size_t(c)]);
+    const bool is_of_lips = c < lip_chunks;
+    const int first = (int(c) - (is_of_lips ? 0 : lip_chunks)) * groups_per_chunk;
+    look(m, is_of_lips ? near_lips_ : near_bodies_, first,
+         std::min(is_of_lips ? lips : bodies, first + groups_per_chunk), found[size_t(c)]);
   });
   double fastest = 0;
   for (const auto& part : found)
-    for (const Meeting& p : part) fastest = std::max(fastest, norm(p.before));
+    for (const Near& n : part) fastest = std::max(fastest, n.speed);
   std::vector<Meeting> meetings;
   for (const auto& part : found)
-    for (const Meeting& p : part)
-      if (p.gap <= 2 * dt * fastest) meetings.push_back(p);  // an impulse of others may send it here, too
+    for (const Near& n : part)
+      if (n.foot.gap <= 2 * dt * fastest)  // an impulse of others may send it here, too
+        meetings.push_back(*meeting_of(m, *n.pair, n.foot));
   parallel_for(int64_t(meetings.size()),
                [&](int64_t i) { begin(meetings[size_t(i)], m.state, held_, dt, input_.restitution); });
   return meetings;
@@ -141,9 +181,16 @@ std::vector<int32_t> sort_by_island(std::vector<Meeting>& meetings, int32_t node
       low = low < 0 ? r : std::min(r, low);
     });
   }
-  for (Meeting& p : meetings) touched(p, [&](int32_t i) { p.island = find(i); });
-  std::stable_sort(meetings.begin(), meetings.end(),
-                   [](const Meeting& a, const Meeting& b) { return a.island < b.island; });
+  std::vector<std::pair<int32_t, int32_t>> order;  // (island, place)
+  for (Meeting& p : meetings) {
+    touched(p, [&](int32_t i) { p.island = find(i); });
+    order.push_back({p.island, int32_t(order.size())});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Meeting> sorted;
+  sorted.reserve(meetings.size());
+  for (const auto& [island, place] : order) sorted.push_back(meetings[size_t(place)]);
+  meetings.swap(sorted);
   std::vector<int32_t> start;
   for (size_t i = 0; i < meetings.size(); ++i)
     if (i == 0 || meetings[i].island != meetings[i - 1].island) start.push_back(int32_t(i));
@@ -179,6 +226,7 @@ void Contact::act(Model& m, double dt) {
 
 /// Brings up to date what may meet what.
 void Contact::renew(Model& m, double dt) {
+  find_depths(m.mesh);
   const bool is_cut = m.topology.version() != version_;
   if (is_cut) {
     version_ = m.topology.version();

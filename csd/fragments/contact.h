@@ -8,6 +8,7 @@
 //   bodies: nodes against the faces of other fragments and bodies, found by a spatial hash
 // Every rank follows all nodes that may meet, and does the same.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -81,6 +82,7 @@ class Contact {
 
  private:
   // contact_search.cpp
+  void find_depths(const Mesh& mesh);
   void follow_surface(Model& m);
   void add_lips(const Model& m);
   void search_lips(const Model& m);
@@ -97,13 +99,14 @@ class Contact {
   std::vector<Face> fresh_;          // lips that haven't parted
   Field<uint8_t, ElemId> is_fresh_;  // bit per side
   Nearby near_lips_, near_bodies_;
-  std::vector<NodeId> surface_;           // all nodes of the boundary, at the last search
-  std::vector<int32_t> root_;             // work space: [node, body]
-  size_t lips_ = 0;                       // of the boundary that are known
-  int64_t version_ = -1, searched_ = -1;  // of the topology: known; that near_bodies_ is of
-  int64_t next_search_ = 0;               // the earliest step for one because of cracks
-  double margin_ = -1, used_ = 0;         // m, of near_bodies_; by which things may have come nearer since
-  Vec3 drift_;                            // m/s, about what the whole surface moves with
+  Field<std::array<float, 6>, ElemId> depths_;  // m, of each side; found at the first search
+  std::vector<NodeId> surface_;                 // all nodes of the boundary, at the last search
+  std::vector<int32_t> root_;                   // work space: [node, body]
+  size_t lips_ = 0;                             // of the boundary that are known
+  int64_t version_ = -1, searched_ = -1;        // of the topology: known; that near_bodies_ is of
+  int64_t next_search_ = 0;                     // the earliest step for one because of cracks
+  double margin_ = -1, used_ = 0;               // m, of near_bodies_; by which things may have come nearer since
+  Vec3 drift_;                                  // m/s, about what the whole surface moves with
   int64_t impulses_ = 0;
   double work_ = 0;
   std::optional<Fragments> own_fragments_;  // without cracks

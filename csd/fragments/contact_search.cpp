@@ -73,13 +73,17 @@ class Grid {
   std::vector<int32_t> start_, items_;
 };
 
-/// A part of the smaller of the face's size and of the element's extent behind it, in the reference configuration.
-float depth_of(const Mesh& mesh, Face f) {
-  const auto q = mesh.nodes_of(f);
-  const double area = 0.5 * norm(cross(mesh.X[q[2]] - mesh.X[q[0]], mesh.X[q[3]] - mesh.X[q[1]]));
-  if (!(area > 0)) return 0;
-  const double behind = hex_volume(corners(mesh.hex[f.elem], mesh.X)).volume / area;
-  return float(0.25 * std::min(behind, std::sqrt(area)));
+/// Of each side: a part of the smaller of the face's size and of the element's extent behind it, in the reference
+/// configuration.
+std::array<float, 6> depths_of(const Mesh& mesh, ElemId e) {
+  const double volume = hex_volume(corners(mesh.hex[e], mesh.X)).volume;
+  std::array<float, 6> depths{};
+  for (int side = 0; side < 6; ++side) {
+    const auto q = mesh.nodes_of({e, side});
+    const double area = 0.5 * norm(cross(mesh.X[q[2]] - mesh.X[q[0]], mesh.X[q[3]] - mesh.X[q[1]]));
+    if (area > 0) depths[size_t(side)] = float(0.25 * std::min(volume / area, std::sqrt(area)));
+  }
+  return depths;
 }
 
 std::vector<NodeId> nodes_of_faces(const Model& m, const std::vector<Face>& faces) {
@@ -92,6 +96,12 @@ std::vector<NodeId> nodes_of_faces(const Model& m, const std::vector<Face>& face
 }
 
 }  // namespace
+
+void Contact::find_depths(const Mesh& mesh) {
+  if (depths_.size() > 0) return;
+  depths_.resize(size_t(mesh.elem_count()));
+  parallel_for(mesh.elem_count(), [&](int64_t e) { depths_[ElemId(e)] = depths_of(mesh, ElemId(e)); });
+}
 
 void Contact::follow_surface(Model& m) {
   const auto& ranks = m.physics.elements.ranks;
@@ -133,7 +143,7 @@ void Contact::search_lips(const Model& m) {
   for (const Face lip : fresh_) {
     const Face partner = m.topology.partner(lip);
     const auto theirs = m.mesh.nodes_of(partner);
-    const float depth = depth_of(m.mesh, partner);
+    const float depth = depths_[partner.elem][size_t(partner.side)];
     for (const NodeId n : m.mesh.nodes_of(lip)) {
       if (std::find(theirs.begin(), theirs.end(), n) != theirs.end()) continue;
       near_lips_.pairs.push_back({n, partner, depth});
@@ -200,8 +210,8 @@ void Contact::search_bodies(Model& m, double travel) {
   }
   const Grid grid(boxes, std::max(mean, 0.125 * longest));
   const std::vector<NodeId> nodes = nodes_of_faces(m, faces);
-  std::vector<float> depth(faces.size());
-  parallel_for(int64_t(faces.size()), [&](int64_t i) { depth[size_t(i)] = depth_of(m.mesh, faces[size_t(i)]); });
+  std::vector<int32_t> label_of(faces.size());
+  for (size_t i = 0; i < faces.size(); ++i) label_of[i] = fragments.label()[faces[i].elem];
   constexpr int64_t chunk = 512;
   std::vector<Nearby> parts((nodes.size() + chunk - 1) / chunk);
   parallel_for_dynamic(int64_t(parts.size()), [&](int64_t p) {
@@ -212,13 +222,13 @@ void Contact::search_bodies(Model& m, double travel) {
       const int32_t own = fragments.label()[m.topology.elements(n)[0]];
       here.clear();
       for (const int32_t k : grid.at(x[n]))
-        if (const int32_t label = fragments.label()[faces[size_t(k)].elem]; label != own && boxes[size_t(k)].has(x[n]))
+        if (const int32_t label = label_of[size_t(k)]; label != own && boxes[size_t(k)].has(x[n]))
           if (!is_lip_pair(m, n, faces[size_t(k)])) here.push_back({label, k});
       std::sort(here.begin(), here.end());
       here.erase(std::unique(here.begin(), here.end()), here.end());
       for (size_t k = 0; k < here.size(); ++k) {
         const size_t face = size_t(here[k].second);
-        part.pairs.push_back({n, faces[face], depth[face]});
+        part.pairs.push_back({n, faces[face], depths_[faces[face].elem][size_t(faces[face].side)]});
         if (k + 1 == here.size() || here[k].first != here[k + 1].first)
           part.group.push_back(int32_t(part.pairs.size()));
       }

@@ -52,9 +52,9 @@ class Followers {
     return T == Vec3{} ? dot(F, body.velocity()) : dot(F, body.velocity()) + dot(T, body.spin());
   }
 
-  std::vector<int32_t> loaded_;                       // places in bodies, ascending
+  std::vector<int32_t> loaded_;                        // places in bodies, ascending
   std::vector<size_t> first_node_{0}, first_face_{0};  // [loaded + 1] into nodes_, faces_
-  std::vector<Node> nodes_;                           // that may bear a load, ascending in each body
+  std::vector<Node> nodes_;                            // that may bear a load, ascending in each body
   std::vector<OnBody> faces_;
   std::vector<RigidBody::Push> load_;  // [loaded]
   double power_ = 0;

@@ -1,43 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "csd/fragments/foot.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace bw::csd {
 
-/// Newton's method for the two coordinates in which x - p is perpendicular to the face.
-std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& q) {
+/// Newton's method for the two coordinates in which x - p is perpendicular to the face, p = M + s A + t B + s t C.
+template <class T>
+Feet<T> feet_on(const Vec<T>& x, const std::array<Vec<T>, 4>& face) {
   constexpr double beside = 1 + 1e-6;  // meshes that match have nodes on edges, to round-off
-  const Vec3 twist = 0.25 * (q[0] - q[1] + q[2] - q[3]);
-  double s = 0, t = 0, before = 1e300;
+  constexpr double close = 1e-9;       // the error after such a step is about its square
+  // seen from a corner: far from the origin digits would be lost
+  const Vec<T> q1 = face[1] - face[0], q2 = face[2] - face[0], q3 = face[3] - face[0];
+  const T quarter(0.25);
+  const Vec<T> A = quarter * (q1 + q2 - q3), B = quarter * (q2 + q3 - q1), C = quarter * (q2 - q1 - q3);
+  const Vec<T> d = x - face[0] - quarter * (q1 + q2 + q3);
+  T s(0), t(0), before(1e300), found(0);
+  auto is_active = s <= T(0);
   for (int i = 0; i < 12; ++i) {
-    const std::array<double, 4> N{0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
-                                  0.25 * (1 - s) * (1 + t)};
-    const Vec3 r = x - (N[0] * q[0] + N[1] * q[1] + N[2] * q[2] + N[3] * q[3]);
-    const Vec3 ps = 0.25 * ((1 - t) * (q[1] - q[0]) + (1 + t) * (q[2] - q[3]));
-    const Vec3 pt = 0.25 * ((1 - s) * (q[3] - q[0]) + (1 + s) * (q[2] - q[1]));
-    const double a = dot(ps, ps), b = dot(ps, pt) - dot(r, twist), c = dot(pt, pt), det = a * c - b * b;
-    if (!(det > 1e-12 * a * c)) return std::nullopt;
-    const double u = dot(r, ps), v = dot(r, pt), ds = (c * u - b * v) / det, dt = (a * v - b * u) / det;
-    if (const double change = std::fabs(ds) + std::fabs(dt); change > 1e-14) {
-      s += ds, t += dt;
-      const double far = std::max(std::fabs(s), std::fabs(t));
-      if (!(far < 4)) return std::nullopt;
-      if (change < 0.25 * before && far > beside + 4 * change) return std::nullopt;  // it converges there: beside
-      before = change;
-      if (i < 11) continue;
-      // round-off of coordinates far from the origin, in sizes of the face
-      const double noise = 8 * std::numeric_limits<double>::epsilon() * norm(x) / std::sqrt(std::min(a, c));
-      if (change > 1e-12 + noise) return std::nullopt;  // as far from the face as it is curved
-    }
-    if (std::fabs(s) > beside || std::fabs(t) > beside) return std::nullopt;
-    const Vec3 area = cross(ps, pt);
-    const Vec3 normal = unit(area);
-    return Foot{N, normal, dot(r, normal), 2 * std::sqrt(norm(area))};
+    const Vec<T> r = d - s * A - t * B - (s * t) * C, ps = A + t * C, pt = B + s * C;
+    const T a = dot(ps, ps), b = dot(ps, pt) - dot(r, C), c = dot(pt, pt), det = a * c - b * b;
+    const T u = dot(r, ps), v = dot(r, pt), per_det = T(1) / det;
+    const T ds = (c * u - b * v) * per_det, dt = (a * v - b * u) * per_det, change = abs(ds) + abs(dt);
+    const auto is_regular = det > T(1e-12) * a * c;
+    s = select(is_active & is_regular, s + ds, s), t = select(is_active & is_regular, t + dt, t);
+    const T far = max(abs(s), abs(t));
+    const auto converges_beside = (change < T(0.25) * before) & (far > T(beside) + T(4) * change);
+    is_active = is_active & is_regular & (far < T(4)) & !converges_beside;
+    const auto is_there = is_active & (change <= T(close));
+    found = select(is_there, T(1), found);
+    is_active = is_active & !is_there;
+    if (!any(is_active)) break;  // what is left after the last: as far from the face as it is curved
+    before = change;
   }
-  return std::nullopt;
+  const Vec<T> r = d - s * A - t * B - (s * t) * C, area = cross(A + t * C, B + s * C);
+  const T size2 = dot(area, area), root = sqrt(size2);
+  const Vec<T> normal = (T(1) / root) * area;
+  found = select((max(abs(s), abs(t)) <= T(beside)) & (size2 > T(0)), found, T(0));
+  return {found,
+          {quarter * (T(1) - s) * (T(1) - t), quarter * (T(1) + s) * (T(1) - t), quarter * (T(1) + s) * (T(1) + t),
+           quarter * (T(1) - s) * (T(1) + t)},
+          normal,
+          dot(r, normal),
+          T(2) * sqrt(root)};
 }
+
+template Feet<double> feet_on(const Vec<double>&, const std::array<Vec<double>, 4>&);
+template Feet<Pack> feet_on(const Vec<Pack>&, const std::array<Vec<Pack>, 4>&);
 
 }  // namespace bw::csd

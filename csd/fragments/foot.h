@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "common/math/pack.h"
 #include "common/math/tensor.h"
 
 namespace bw::csd {
@@ -15,8 +16,29 @@ struct Foot {
   double size;              ///< m, root of the face's area
 };
 
+/// Feet of T's points, each on its own face; T = double or Pack.
+template <class T>
+struct Feet {
+  T found;  ///< 1: there is one, 0: the rest means nothing
+  std::array<T, 4> N;
+  Vec<T> normal;
+  T gap, size;
+  Foot of(int lane) const {
+    return {{N[0][lane], N[1][lane], N[2][lane], N[3][lane]},
+            {normal.x[lane], normal.y[lane], normal.z[lane]},
+            gap[lane],
+            size[lane]};
+  }
+};
+
 /// Of a point on a face whose nodes are counter-clockwise seen from outside; the point less its foot is gap * normal.
-/// Nothing if it lies beside the face.
-std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& face);
+/// None if it lies beside the face.
+template <class T>
+Feet<T> feet_on(const Vec<T>& x, const std::array<Vec<T>, 4>& face);
+
+inline std::optional<Foot> foot_on(const Vec3& x, const std::array<Vec3, 4>& face) {
+  const Feet<double> f = feet_on(x, face);
+  return f.found > 0 ? std::optional(Foot{f.N, f.normal, f.gap, f.size}) : std::nullopt;
+}
 
 }  // namespace bw::csd

@@ -45,7 +45,11 @@ void Loads::follow(const std::vector<NodeId>& nodes) {
 
 bool Loads::are_on_faces() const {
   return std::all_of(kinds_.begin(), kinds_.end(), [](const LoadKind& kind) {
-    return std::visit([](const auto& load) { return requires { load.faces; }; }, kind);
+    return std::visit(
+        [](const auto& load) {
+          return requires { load.faces; };
+        },
+        kind);
   });
 }
 

@@ -54,7 +54,8 @@ class Loads {
   /// stay as they are; later nodes are not marked. Returns the faces that were not left before, in the order in which
   /// they added to their nodes: somebody else sees to them.
   std::vector<LeftFace> leave(const Mesh& mesh, const std::vector<char>& is_left);
-  /// Adds to force(a) [N] what a load does at the time of the last add() to the corners of its face, which are at x [m].
+  /// Adds to force(a) [N] what a load does at the time of the last add() to the corners of its face, which are at x
+  /// [m].
   template <class Force>
   void add_on_face(int32_t load, int32_t face, const std::array<Vec3, 4>& x, const Force& force) const {
     std::visit(

@@ -77,7 +77,8 @@ TEST(Loads, GoOverLoadedNodesAlone) {
     for (const Face face : loaded) {
       const auto n = mesh.nodes_of(face);
       const std::array<Vec3, 4> x{s.x[n[0]], s.x[n[1]], s.x[n[2]], s.x[n[3]]};
-      if (const double p = front.pressure(centre_of(x), t); p > 0) add_pressure(x, p, [&](size_t a) -> Vec3& { return f[n[a]]; });
+      if (const double p = front.pressure(centre_of(x), t); p > 0)
+        add_pressure(x, p, [&](size_t a) -> Vec3& { return f[n[a]]; });
     }
     for (const auto& [face, force] : given)
       for (const NodeId n : mesh.nodes_of(face)) f[n] += 0.25 * force;
