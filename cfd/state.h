@@ -86,7 +86,6 @@ class State {
   /// The copy that a step writes.
   double* spare(int b) { return spare_[size_t(b)]; }
   void flip(int b) { std::swap(current_[size_t(b)], spare_[size_t(b)]); }
-  double* ghosts() { return ghosts_.data(); }
 
   /// As many blocks as the forest has now: the first keep what they hold, new ones hold anything.
   void fit(const Forest& forest) {
@@ -114,6 +113,7 @@ class State {
   int64_t step = 0;
   std::vector<BlockInfo> info;  ///< [local, then ghosts]
   std::vector<Booked> booked;   ///< [local]
+  std::vector<std::vector<double>> outbox, inbox;  ///< [rank] room for exchange_state()
 
  private:
   int rows_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/app/error.h"
 
@@ -10,15 +11,18 @@ namespace bw::cfd {
 
 namespace {
 
-/// Relative cost per cell of blocks that are n long in a direction; x runs along packs. A row of cells alone fills no
-/// cache.
-double block_cost(int n, bool x, bool row) {
-  const double width = x ? double((n + Pack::size - 1) / Pack::size * Pack::size) / n : 1.0;  // hanging packs
-  const double ghosts = (n + 2.5) / n;  // gather and half steps of neighbours' cells
-  const int fits = row ? 128 : 32;
-  const double cache = n > fits ? 1 + 0.2 * std::log2(double(n) / fits) : 1.0;
-  const double threads = n > 16 ? 1 + 0.02 * (n - 16) / 16.0 : 1.0;  // fewer blocks to share out and to skip
-  return width * ghosts * cache * threads;
+/// Relative cost per cell of blocks of n cells (measured, cfd/scheme/block_kernel.h): along x packs hang over the end,
+/// once more where half steps of both neighbours are wanted, and ghosts come one by one; across it whole rows of ghosts
+/// do. Beyond some thousand cells a block's patch leaves the second cache; a row alone fills none.
+double block_cost(const std::array<int, 3>& n, const std::array<int, 3>& domain) {
+  const auto packs = [](int cells) { return (cells + Pack::size - 1) / Pack::size * double(Pack::size); };
+  double cost = n[0] == 1 ? 1 : (0.5 * (packs(n[0] + 2) + packs(n[0])) + 6) / n[0];
+  for (size_t d = 1; d < 3; ++d)
+    if (n[d] > 1) cost *= (n[d] + 1.5) / n[d];
+  for (size_t d = 0; d < 3; ++d)
+    if (domain[d] > 1) cost *= 1 + 0.125 * n[d] / domain[d];  // fewer blocks to share out and to skip
+  const double cells = double(n[0]) * n[1] * n[2], fit = n[1] == 1 && n[2] == 1 ? 128 : 8192;
+  return cells > fit ? cost * (1 + 0.12 * std::log2(cells / fit)) : cost;
 }
 
 uint64_t key_of(const Leaf& leaf) {
@@ -60,24 +64,32 @@ std::array<int, 3> blocks_of(const GridSize& size, const BlockShape& s) {
 }  // namespace
 
 std::array<int, 3> choose_block(const std::array<int, 3>& cells) {
-  std::array<int, 3> n;
-  const bool row = cells[1] == 1 && cells[2] == 1;
-  for (size_t d = 0; d < 3; ++d) {
-    n[d] = cells[d];
-    for (int m = 2; m < cells[d]; ++m)
-      if (cells[d] % m == 0 && block_cost(m, d == 0, row) < block_cost(n[d], d == 0, row)) n[d] = m;
-  }
-  return n;
+  std::array<int, 3> best = cells;
+  const auto divisors = [](int n) {
+    std::vector<int> all{n};
+    for (int m = 2; m < n; ++m)
+      if (n % m == 0) all.push_back(m);
+    return all;
+  };
+  for (const int x : divisors(cells[0]))
+    for (const int y : divisors(cells[1]))
+      for (const int z : divisors(cells[2]))
+        if (block_cost({x, y, z}, cells) < block_cost(best, cells)) best = {x, y, z};
+  return best;
 }
 
 std::array<int, 3> choose_block(const std::array<int, 3>& cells, int levels) {
   std::array<int, 3> n{0, 0, 0};
   for (size_t d = 0; d < 3; ++d) {
     if (cells[d] == 1) n[d] = 1;
-    for (int m = 8; m <= 16 && cells[d] > 1; m += 2)
-      if (cells[d] % m == 0 && m % (1 << levels) == 0 &&
-          (n[d] == 0 || block_cost(m, d == 0, false) < block_cost(n[d], d == 0, false)))
-        n[d] = m;
+    for (int m = 8; m <= 16 && cells[d] > 1; m += 2) {
+      const auto cost = [&](int cells_along) {
+        std::array<int, 3> one{1, 1, 1};
+        one[d] = cells_along;
+        return block_cost(one, {1, 1, 1});
+      };
+      if (cells[d] % m == 0 && m % (1 << levels) == 0 && (n[d] == 0 || cost(m) < cost(n[d]))) n[d] = m;
+    }
   }
   return n;
 }
@@ -127,6 +139,55 @@ void Forest::make_tables() {
     for (int n : near)
       if (n != b) around_.push_back(n);
     first_around_.push_back(around_.size());
+  }
+  make_pieces();
+}
+
+void Forest::make_pieces() {
+  to_.assign(size_t(comm_.size()), {});
+  from_.assign(size_t(comm_.size()), {});
+  std::vector<Piece> copies{size_t(ghost_blocks())};
+  for (int b = 0; b < local_; ++b) {
+    std::map<int, Piece> mine;  // by rank
+    for (const int other : around(b)) {
+      if (other < local_) continue;
+      const auto piece = mine.try_emplace(trees_.ghost_rank(other - local_), Piece{b, shape().n, {0, 0, 0}}).first;
+      grow(piece->second, other);
+      Piece& copy = copies[size_t(other - local_)];
+      if (copy.last[0] == 0) copy = {other, shape().n, {0, 0, 0}};
+      grow(copy, b);
+    }
+    for (const auto& [rank, piece] : mine) to_[size_t(rank)].push_back(piece);
+  }
+  for (const Piece& copy : copies)
+    if (copy.last[0] > 0) from_[size_t(trees_.ghost_rank(copy.block - local_))].push_back(copy);
+  for (auto* lists : {&to_, &from_})
+    for (std::vector<Piece>& list : *lists)
+      for (size_t i = 1; i < list.size(); ++i) list[i].start = list[i - 1].start + list[i - 1].cells();
+}
+
+/// By the cells that a block that touches it reads, also around periodic sides: the ghosts of its own level, two coarse
+/// cells for slopes at another level, or what a cell freed by a wall is extrapolated from.
+void Forest::grow(Piece& piece, int reader) const {
+  const int layers = levels() > 0 ? 2 * ghost_layers : 3;
+  const std::array<int, 3> a = first_finest(piece.block), b = first_finest(reader), b_cells = finest_cells(reader),
+                           domain = cells_of_level(levels());
+  int low[3][3], high[3][3];  // by direction and how often around the domain
+  for (size_t d = 0; d < 3; ++d)
+    for (int turn = -1; turn <= 1; ++turn) {
+      const int from = b[d] + turn * domain[d] - a[d], to = from + b_cells[d], cell = finest_cells(piece.block)[d] / shape().n[d];
+      const bool counts = turn == 0 || (size_.periodic[d] && shape().used[d]);
+      low[d][turn + 1] = std::max(0, from / cell - layers);
+      high[d][turn + 1] = counts ? std::min(shape().n[d], to / cell + layers) : 0;
+    }
+  for (int image = 0; image < 27; ++image) {
+    const size_t turn[3] = {size_t(image % 3), size_t(image / 3 % 3), size_t(image / 9)};
+    bool some = true;
+    for (size_t d = 0; d < 3; ++d) some = some && low[d][turn[d]] < high[d][turn[d]];
+    for (size_t d = 0; some && d < 3; ++d) {
+      piece.first[d] = std::min(piece.first[d], low[d][turn[d]]);
+      piece.last[d] = std::max(piece.last[d], high[d][turn[d]]);
+    }
   }
 }
 

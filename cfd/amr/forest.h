@@ -24,8 +24,8 @@ struct GridSize {
   Geometry geometry = Geometry::planar;
 };
 
-/// Cells per block and direction: the divisor of `cells` that costs least in ghosts, hanging packs and cache. A count
-/// without divisors in [8, 32] (a prime) becomes one long block.
+/// Cells per block and direction: the divisors of `cells` that cost least in ghosts, hanging packs and cache: long along
+/// x. A prime becomes one long block.
 std::array<int, 3> choose_block(const std::array<int, 3>& cells);
 /// The same for a grid with `levels`: from 8 to 16 cells and a multiple of 2^levels, 1 in unused directions; 0 where no
 /// divisor is.
@@ -36,6 +36,16 @@ std::array<int, 3> choose_block(const std::array<int, 3>& cells, int levels);
 struct LevelJump {
   bool finer = false;
   std::array<int, 8> block{-1, -1, -1, -1, -1, -1, -1, -1};  ///< [0] if coarser
+};
+
+/// Cells of a block that another rank reads, [first, last) in each direction, and where they begin in its message.
+struct Piece {
+  int block;
+  std::array<int, 3> first, last;
+  size_t start = 0;  ///< cells
+  size_t cells() const {
+    return size_t(last[0] - first[0]) * size_t(last[1] - first[1]) * size_t(last[2] - first[2]);
+  }
 };
 
 /// Where a block of the forest after adapt() comes from.
@@ -92,6 +102,10 @@ class Forest {
   std::span<const int> around(int block) const {
     return {&around_[first_around_[size_t(block)]], first_around_[size_t(block) + 1] - first_around_[size_t(block)]};
   }
+  /// Cells of local blocks that a rank reads, and of its blocks that this rank reads: the same pieces in the same order
+  /// on both.
+  const std::vector<Piece>& pieces_to(int rank) const { return to_[size_t(rank)]; }
+  const std::vector<Piece>& pieces_from(int rank) const { return from_[size_t(rank)]; }
   /// Is the lower (upper) side of the block in direction d a side of the domain that is not periodic?
   bool at_side(int block, int d, bool upper) const;
   /// Local block and cell of a point; block -1 if it is outside the domain or on another rank.
@@ -123,6 +137,8 @@ class Forest {
 
  private:
   void make_tables();
+  void make_pieces();
+  void grow(Piece& piece, int reader) const;
   int find_leaf(const Leaf& leaf) const;
   int connect(int block, const std::array<int, 3>& offset);
 
@@ -140,6 +156,7 @@ class Forest {
   std::vector<uint8_t> at_jump_;      ///< [local]
   std::vector<int> around_;           ///< [first_around_[local]]
   std::vector<size_t> first_around_;  ///< [local + 1]
+  std::vector<std::vector<Piece>> to_, from_;  ///< [rank]
 };
 
 }  // namespace bw::cfd

@@ -2,20 +2,56 @@
 #include "cfd/amr/gather.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "cfd/amr/levels.h"
 #include "cfd/amr/open_side.h"
 #include "cfd/scheme/lane.h"
+#include "common/parallel/loop.h"
 
 namespace bw::cfd {
 
 void exchange_state(const Forest& forest, State& s) {
   if (forest.comm().size() == 1) return;
-  forest.exchange(
-      s.block_size() * sizeof(double), [&](int b) { return s.block(b); }, s.ghosts());
-  forest.exchange(
-      sizeof(BlockInfo), [&](int b) { return &s.info[size_t(b)]; }, s.info.data() + forest.local_blocks());
+  static_assert(sizeof(BlockInfo) % sizeof(double) == 0);
+  constexpr size_t info = sizeof(BlockInfo) / sizeof(double);
+  const size_t rows = size_t(s.rows());
+  const BlockShape& shape = forest.shape();
+  // of each piece its cells, then what is known of the block
+  const auto place = [&](const Piece& p, size_t number) { return p.start * rows + number * info; };
+  const auto for_each_row = [&](const Piece& p, double* at, const auto& body) {
+    const size_t n = size_t(p.last[0] - p.first[0]);
+    for (int q = 0; q < s.rows(); ++q)
+      for (int k = p.first[2]; k < p.last[2]; ++k)
+        for (int j = p.first[1]; j < p.last[1]; ++j, at += n) body(s.block(p.block, q) + shape.at(k, j, p.first[0]), at, n);
+    return at;
+  };
+  const size_t ranks = size_t(forest.comm().size());
+  s.outbox.resize(ranks), s.inbox.resize(ranks);
+  const auto size_of = [&](const std::vector<Piece>& list) {
+    return list.empty() ? 0 : place(list.back(), list.size()) + list.back().cells() * rows;
+  };
+  for (size_t r = 0; r < ranks; ++r) {
+    const std::vector<Piece>& list = forest.pieces_to(int(r));
+    s.outbox[r].resize(size_of(list)), s.inbox[r].resize(size_of(forest.pieces_from(int(r))));
+    parallel_for_dynamic(int64_t(list.size()), [&](int64_t i) {
+      const Piece& p = list[size_t(i)];
+      double* end = for_each_row(p, s.outbox[r].data() + place(p, size_t(i)),
+                                 [](const double* cell, double* at, size_t n) { std::copy_n(cell, n, at); });
+      std::memcpy(end, &s.info[size_t(p.block)], sizeof(BlockInfo));
+    });
+  }
+  forest.comm().exchange(s.outbox, s.inbox);
+  for (size_t r = 0; r < ranks; ++r) {
+    const std::vector<Piece>& list = forest.pieces_from(int(r));
+    parallel_for_dynamic(int64_t(list.size()), [&](int64_t i) {
+      const Piece& p = list[size_t(i)];
+      const double* end = for_each_row(p, s.inbox[r].data() + place(p, size_t(i)),
+                                       [](double* cell, const double* at, size_t n) { std::copy_n(at, n, cell); });
+      std::memcpy(static_cast<void*>(&s.info[size_t(p.block)]), end, sizeof(BlockInfo));
+    });
+  }
 }
 
 GhostSource Gather::source(int block, int d, int index) const {

@@ -6,6 +6,7 @@
 #include <p8est_extended.h>
 #include <p8est_ghost.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/app/error.h"
@@ -118,6 +119,11 @@ void Trees::read_ghosts() {
   for_each_leaf(f, [&](p4est_topidx_t, const p8est_quadrant_t* q) { number.push_back(carries(f, q) ? next++ : -1); });
   for (size_t i = 0; i < g->mirrors.elem_count; ++i)
     mirrors_.push_back(number[size_t(p8est_quadrant_array_index(&g->mirrors, i)->p.piggy3.local_num)]);
+}
+
+int Trees::ghost_rank(int i) const {
+  const p4est_locidx_t* first = p4est_->ghost->proc_offsets;
+  return int(std::upper_bound(first, first + comm_.size() + 1, i) - first) - 1;
 }
 
 void Trees::adapt(const std::vector<int8_t>& wish) {

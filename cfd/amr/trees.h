@@ -32,6 +32,8 @@ class Trees {
   /// Leaves of other ranks around them, and which of mine others keep copies of (number among leaves(), -1: none).
   const std::vector<Leaf>& ghosts() const { return ghosts_; }
   const std::vector<int>& mirrors() const { return mirrors_; }
+  /// The rank that owns ghosts()[i].
+  int ghost_rank(int i) const;
   int64_t global_leaves() const { return first_.back(); }
   int64_t first_leaf(int rank) const { return first_[size_t(rank)]; }
 

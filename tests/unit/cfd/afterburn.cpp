@@ -11,8 +11,8 @@ namespace {
 const std::string closed_box = R"(
 [fluid]
 lower = [0, 0, 0]
-upper = [1.2, 0.2, 0.2]
-cells = [96, 16, 16]
+upper = [0.2, 0.2, 1.2]
+cells = [16, 16, 96]
 [[fluid.material]]
 name = "air"
 library = "air"
@@ -25,7 +25,7 @@ material = "air"
 density = 1.225
 pressure = 101325
 [[fluid.region]]
-shape = {kind = "sphere", centre = [0.15, 0.1, 0.1], radius = 0.05}
+shape = {kind = "sphere", centre = [0.1, 0.1, 0.15], radius = 0.05}
 material = "TNT"
 density = 80
 pressure = 1e8

@@ -124,11 +124,11 @@ TEST(Interface, SharpFlowConserves) {
     EXPECT_NEAR(f.sums().U[q] + b.cleaned[q], before.U[q], 1e-13 * std::abs(before.U[Cons::rhoE] * (q == Cons::rhoE) + before.U[q]));
 }
 
-const std::string charge = grid("[96, 24, 24]", "[1.2, 0.3, 0.3]") + lit_charge("[0.15, 0.15, 0.15]", 0.06);
+const std::string charge = grid("[24, 24, 96]", "[0.3, 0.3, 1.2]") + lit_charge("[0.15, 0.15, 0.15]", 0.06);
 
 TEST(Equal, AnyNumberOfThreads) {
   expect_equal_on_threads(charge, 12);
-  expect_equal_on_threads(grid("[96, 24, 24]", "[1.2, 0.3, 0.3]") + sharp + lit_charge("[0.15, 0.15, 0.15]", 0.06), 12);
+  expect_equal_on_threads(grid("[24, 24, 96]", "[0.3, 0.3, 1.2]") + sharp + lit_charge("[0.15, 0.15, 0.15]", 0.06), 12);
 }
 
 TEST(Equal, BlocksAtRestAreSkipped) { expect_rest_is_skipped(charge, 12); }

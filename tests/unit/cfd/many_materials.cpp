@@ -162,9 +162,10 @@ TEST(ManyMaterials, LevelsKeepAContact) {
 }
 
 TEST(ManyMaterials, OneGasAloneIsStillOne) {
-  const std::string text = grid("[160, 16, 16]", "[2, 0.2, 0.2]") + materials({tnt, water, air}) +
-                           region(everywhere, "air", 1.225, 101325) + region(between(0.6, 3), "water", 1000, 101325) +
-                           region(ball(0.53, 0.1, 0.1, 0.04), "products", 400, 2e8);
+  const std::string below = "kind = \"box\", lower = [-1, -1, 0.6], upper = [2, 2, 3]";
+  const std::string text = grid("[16, 16, 160]", "[0.2, 0.2, 2]") + materials({tnt, water, air}) +
+                           region(everywhere, "air", 1.225, 101325) + region(below, "water", 1000, 101325) +
+                           region(ball(0.1, 0.1, 0.53, 0.04), "products", 400, 2e8);
   Flow f(text);
   f.steps(2);
   std::vector<int> of(4, 0);
