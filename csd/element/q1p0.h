@@ -159,7 +159,7 @@ ElementForce<T> internal_force(const M& material, const Corners<T>& x, T V0, dou
 #pragma GCC unroll 1
   for (int i = 0; i < 8; ++i) {
     const double* at_point = history + i * stride;
-    if (!skip.uniform)
+    if (!skip.uniform || i == 0)
       for (int c = 0; c < M::components; ++c)
         __builtin_prefetch(at_point + (8 * M::components + c) * lanes);  // next block
     convect(load_sym<T>(at_point), g.at(0, i), g.at(1, i), g.at(2, i), i, p);
