@@ -235,8 +235,8 @@ class CutKernel {
     predicted_cells_.push_back(x.c);
     predicted_.emplace_back();
     Predicted& r = predicted_.back();
-    r.pocket = treatment_ == WallTreatment::first_order || is_pocket(x);
     const State mean = read(x);
+    r.pocket = treatment_ == WallTreatment::first_order || is_pocket(x);
     double half[n], mean_w[n];
     for (int q = 0; q < n; ++q) half[q] = mean_w[q] = mean[size_t(q)];
     for (int d = 0; d < 3; ++d) {
@@ -370,6 +370,25 @@ class CutKernel {
     return f;
   }
 
+  /// What a slanted wall meets at a cut link, `here` in cell x. Where gas comes along the wall through the link, that is
+  /// not the cell's own: fed with itself it would grow, in density and in speed. It comes past the neighbour away from
+  /// the wall: that one's entropy, composition and speed along the wall, the cell's own pressure and speed off it.
+  State along_wall(Cell x, const State& here, const WallSide& w, int d, double out, double share) const {
+    if (treatment_ != WallTreatment::half_riemann || share >= 0.5 || out * (here[size_t(Gas::v + d)] - w.v[d]) >= 0) return here;
+    int e = -1;
+    for (int other = 0; other < 3; ++other)
+      if (other != d && shape_.used[size_t(other)] && (e < 0 || std::abs(w.n[other]) > std::abs(w.n[e]))) e = other;
+    if (e < 0 || w.n[e] == 0 || cuts_->cut(x.c, e, w.n[e] > 0)) return here;
+    const State there = read(moved(x, e, w.n[e] > 0 ? 1 : -1));
+    State come = there;
+    const double off = dot(Gas::velocity(here) - Gas::velocity(there), w.n);
+    for (int a = 0; a < 3; ++a) come[size_t(Gas::v + a)] += off * w.n[a];
+    come[Gas::p] = here[Gas::p];
+    gas_->put_on_isentrope(there, 1, come);
+    for (size_t q = 0; q < size_t(n); ++q) come[q] += (0.5 + share) * (here[q] - come[q]);
+    return come;
+  }
+
   /// Flux at the face of x whose link is cut; the wall stands where it will be at mid-step. share_of_face: what is
   /// booked.
   Face wall_face(Cell x, int d, int side, double share_of_face = 1) {
@@ -383,22 +402,22 @@ class CutKernel {
     const Predicted& own = predicted(x);
     const Sound<double> in = sound(x);
     Sound<double> wall = in;
-    State face = own.half;
+    const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
+    const State met = along_wall(x, own.half, w, d, out, share);
+    State face = met;
     if (own.pocket) {
       const Vec3 back = -2 * dot(Gas::velocity(face) - w.v, w.n) * w.n;
       for (int e = 0; e < 3; ++e) face[size_t(Gas::v + e)] += back[e];
     } else if (treatment_ == WallTreatment::mirror) {
       const Behind at = behind(w, d, out, s, 0.5);
       const bool shock = shock_before(x, d, side, gas_->at_wall(own.half, w.n, w.v).w[Gas::p]);
-      const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
       face = shock ? mirrored(*gas_, own.half, w, 0) : mirrored(*gas_, on_slopes(own, share * at.image), w, at.height);
       wall = {std::sqrt(std::max(gas_->stiffness(face), 0.0) / Gas::rho(face)), Gas::rho(face)};
     } else {
-      const double share = std::max(2 * w.n[d] * w.n[d] - 1, 0.0);
-      typename Gas::AtWall star = gas_->at_wall(on_slope(own.half, own, d, out * share * s), w.n, w.v);
+      typename Gas::AtWall star = gas_->at_wall(on_slope(met, own, d, out * share * s), w.n, w.v);
       face = on_slope(star.w, own, d, out * share * (0.5 - s));
       if (shock_before(x, d, side, star.w[Gas::p])) {
-        star = gas_->at_wall(own.half, w.n, w.v);
+        star = gas_->at_wall(met, w.n, w.v);
         face = star.w;
       }
       wall = {std::sqrt(star.rho_c2 / Gas::rho(star.w)), Gas::rho(star.w)};
