@@ -384,7 +384,10 @@ class CutKernel {
     const double off = dot(Gas::velocity(here) - Gas::velocity(there), w.n);
     for (int a = 0; a < 3; ++a) come[size_t(Gas::v + a)] += off * w.n[a];
     come[Gas::p] = here[Gas::p];
-    gas_->put_on_isentrope(there, 1, come);
+    // no more than a factor of two: mixtures that hardly resist have no isentrope to speak of
+    const double ratio = std::clamp(gas_->on_isentrope(there, here[Gas::p]) / Gas::rho(there), 0.5, 2.0);
+    for (int k = 0; k < Gas::densities; ++k) come[size_t(FaceRow::arho(k))] *= ratio;
+    if constexpr (Flow::mixed) come[Prim::Pi] = gas_->pi(come);
     for (size_t q = 0; q < size_t(n); ++q) come[q] += (0.5 + share) * (here[q] - come[q]);
     return come;
   }
