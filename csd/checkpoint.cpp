@@ -12,7 +12,7 @@
 namespace bw::csd {
 namespace {
 
-constexpr int64_t layout = 1;
+constexpr int64_t layout = 2;
 constexpr const char* program = "solid";
 
 Comm comm_of(const Model& m) { return m.physics.elements.ranks ? m.physics.elements.ranks->comm() : Comm(); }
@@ -28,6 +28,7 @@ void keep_state(Archive a, State& s) {
     else
       a.blocks(name, field, lanes);
   });
+  a.blocks("stored_by_rigid", s.of_rigid, 1);
   for (size_t body = 0; body < s.history.size(); ++body)
     s.history[body].keep(a, fmt::format("history_{}", body), int(body));
 }

@@ -6,6 +6,7 @@
 
 namespace bw::csd {
 
+class Rigid;
 struct Physics;
 
 /// [solid.energy]
@@ -43,10 +44,13 @@ struct EnergyRow {
   double temperature_max = 0;                    ///< K, of all points; 0: no material has a temperature
 };
 
-double kinetic_energy(const State& s);
+/// Nodes of rigid bodies count with their bodies, and may be elsewhere (Rigid::complete).
+double kinetic_energy(const State& s, const Rigid* rigid = nullptr);
 /// Product form v^(n-1/2) . v^(n+1/2) m/2: what central differences conserve; differs from kinetic_energy by dt^2/8
 /// f^2/m, dt of the node. short_dt: the shortest of the local steps.
-double kinetic_product(const State& s, double short_dt);
+double kinetic_product(const State& s, double short_dt, const Rigid* rigid = nullptr);
+/// kg m/s; likewise.
+Vec3 momentum_of(const State& s, const Rigid* rigid);
 /// Forces out of balance over loads and reactions (roots of sums of squares), of a run to static; 1 before the first
 /// step.
 double static_imbalance(const Physics& ph);

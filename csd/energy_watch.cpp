@@ -85,7 +85,7 @@ double round_off(const Model& m) {
 
 }  // namespace
 
-void EnergyWatch::check(const EnergyRow& row, const Model& m) {
+void EnergyWatch::check(const EnergyRow& row, Model& m) {
   scale_ =
       std::max({scale_, row.kinetic + row.elastic + row.plastic, std::fabs(row.external), std::fabs(row.conditions)});
   if (!round_off_) round_off_ = round_off(m);
@@ -101,6 +101,7 @@ void EnergyWatch::check(const EnergyRow& row, const Model& m) {
     warned_ = true;
     warn("energy residual {:.3g} J is {:.3g} % of the energy at hand at step {}, t = {:.6g} s", row.residual,
          100 * part_, m.state.step, m.state.t);
+    complete(m);
     audit_.emplace(m);
   }
 }

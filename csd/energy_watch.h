@@ -34,7 +34,7 @@ class EnergyWatch {
  public:
   explicit EnergyWatch(const EnergyCase& cs) : case_(cs) {}
   /// A row of energies at the model's time. PhysicsError beyond `stop`.
-  void check(const EnergyRow& row, const Model& m);
+  void check(const EnergyRow& row, Model& m);
   /// After each step; costs nothing unless an audit is under way.
   void tick(const Model& m);
   bool is_auditing() const { return audit_.has_value(); }

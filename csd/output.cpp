@@ -49,11 +49,6 @@ std::vector<History::Column> history_columns(std::vector<ProbeCase>& probes, con
   return c;
 }
 
-Vec3 momentum_of(const State& s) {
-  return parallel_reduce(
-      int64_t(s.x.size()), Vec3{}, [&](int64_t n) { return s.m[NodeId(n)] * s.v[NodeId(n)]; },
-      [](const Vec3& a, const Vec3& b) { return a + b; });
-}
 double mass_of(const State& s) {
   return parallel_sum(int64_t(s.x.size()), [&](int64_t n) { return s.m[NodeId(n)]; });
 }
@@ -122,10 +117,11 @@ void Output::write_row(Model& m) {
   State& s = m.state;
   if (s.t == t_row_) return;
   t_row_ = s.t;
-  complete(m);
+  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(s);
+  if (!probes_.empty()) complete(m);
   energy_ = energy_row(m.physics, s);
-  mass_ = mass_of(s), momentum_ = momentum_of(s);
-  const double chi = checkerboard(m.physics.elements, s);
+  mass_ = mass_of(s), momentum_ = momentum_of(s, m.physics.rigid ? &*m.physics.rigid : nullptr);
+  const double chi = raw_.of(m.physics.elements, s);
   std::vector<double> row{s.t,
                           double(s.step),
                           s.dt,

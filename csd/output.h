@@ -51,6 +51,7 @@ class Output {
   Progress progress_;
   EnergyRow energy_;  // of the last row
   EnergyWatch watch_;
+  Checkerboard raw_;
   CheckerboardWatch checkerboard_;
   double mass_ = 0, collapsed_ = 0;
   Vec3 momentum_;

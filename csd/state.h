@@ -8,6 +8,7 @@
 
 #include "common/math/pack.h"
 #include "csd/element/blocks.h"
+#include "csd/element/stored_energy.h"
 #include "csd/local_steps.h"
 #include "csd/mesh/topology.h"
 #include "csd/point_history.h"
@@ -34,6 +35,7 @@ struct State {
   Field<double, SlotId> collapsed;       ///< 1: a point has lost most of its volume (element/q1p0.h)
   Field<double, SlotId> rigid;           ///< 1: of a rigid body, passed over by the force loop; empty without such
   std::vector<PointHistory> history;     ///< [body]
+  std::vector<StoredEnergy> of_rigid;    ///< [block] whose elements are all rigid, as they became so; empty without such
 
   LocalSteps local;                      ///< who is due now
   Field<PaddedPoint, NodeId> next_sums;  ///< N, work space: forces by the levels to come

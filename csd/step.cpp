@@ -67,10 +67,11 @@ void book_half_work(Model& m, double dt) {
 template <class Change>
 void book_jump(Model& m, double dt_before, double dt, const Change& change) {
   auto& s = m.state;
-  complete(m);
-  const double before = kinetic_product(s, dt_before);
+  if (m.physics.elements.ranks) m.physics.elements.ranks->complete(s);
+  const Rigid* rigid = m.physics.rigid ? &*m.physics.rigid : nullptr;
+  const double before = kinetic_product(s, dt_before, rigid);
   change();
-  m.physics.energy.initial -= before - kinetic_product(s, dt);
+  m.physics.energy.initial -= before - kinetic_product(s, dt, rigid);
 }
 
 /// From one time to the middle of the coming step and the places at its end, of nodes that are due. dt: the shortest

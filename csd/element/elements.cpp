@@ -132,12 +132,20 @@ struct WithViscosity {
   }
 };
 
+/// Blocks ask eight times for each node.
+void renew_moved(const State& s, const Reference& reference) {
+  auto& has_moved = reference.resting.has_moved;
+  has_moved.resize(reference.X.size());
+  parallel_for(int64_t(has_moved.size()), [&](int64_t n) {
+    has_moved[size_t(n)] = !(s.x[NodeId(n)] == reference.X[NodeId(n)]);
+  });
+}
+
 /// Nodes where they were made, and no stress from a filter that blocks beside it have fed.
-bool is_at_rest(const Elements& el, int block, int body, const MeanStress& how, const Field<Vec3, NodeId>& X,
-                const State& s) {
+bool is_at_rest(const Elements& el, int block, int body, const MeanStress& how, const Resting& resting) {
   const int32_t* nodes = el.blocks.nodes_of(block);
   for (int i = 0; i < 8 * lanes; ++i)
-    if (!(s.x[NodeId(nodes[i])] == X[NodeId(nodes[i])])) return false;
+    if (resting.has_moved[size_t(nodes[i])]) return false;
   if (!how.given) return true;
   const double noise = 1e-13 * std::visit([](const auto& m) { return m.volumetric.kappa; }, el.materials[size_t(body)]);
   for (int l = 0; l < lanes; ++l)
@@ -146,12 +154,10 @@ bool is_at_rest(const Elements& el, int block, int body, const MeanStress& how, 
 }
 /// Whether a block rests. Looked at first, it is computed all the same: its volume and its bound are to be known. One
 /// whose addends travel to other ranks is computed always.
-Resting::State look_at(const Elements& el, int block, int body, const MeanStress& how, const Reference& reference,
-                       const State& s) {
-  const Resting& resting = reference.resting;
+Resting::State look_at(const Elements& el, int block, int body, const MeanStress& how, const Resting& resting) {
   const Resting::State before = resting.state[size_t(block)];
   if (before == Resting::rigid) return before;
-  if (before == Resting::reached || !is_at_rest(el, block, body, how, reference.X, s)) return Resting::reached;
+  if (before == Resting::reached || !is_at_rest(el, block, body, how, resting)) return Resting::reached;
   const bool can_skip = resting.skip && before != Resting::unseen && !el.blocks.border.of(block);
   return can_skip ? Resting::skipped : Resting::computed;
 }
@@ -161,11 +167,12 @@ template <class Mean>
 double all_forces(const Elements& el, const MeanStress& how, const Mean& mean_of, const Reference* reference,
                   State& s) {
   std::vector<double> work(Mean::viscous ? size_t(el.blocks.block_count()) : 0);
+  if (reference && reference->resting.looks()) renew_moved(s, *reference);
   for_coloured_blocks(el.blocks, [&](int block, int body) {
     if (!s.local.is_block_due(block)) return;
     bool rests = false;
     if (reference) {
-      const Resting::State now = look_at(el, block, body, how, *reference, s);
+      const Resting::State now = look_at(el, block, body, how, reference->resting);
       reference->resting.state[size_t(block)] = now;
       if (now == Resting::skipped || now == Resting::rigid) return;
       rests = now == Resting::computed;

@@ -294,10 +294,14 @@ double PressureFilter::energy(const Elements& el, const State& s) const {
   });
 }
 
-double checkerboard(const Elements& el, const State& s) {
-  PressureFilter whole(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
-  whole.skips_rigid_ = false;
-  volume_ratios(el, s, false, whole.J_);
+double Checkerboard::of(const Elements& el, const State& s) {
+  if (!whole_) {
+    whole_.emplace(FilterCase{.kind = "plain", .strength = 1.0}, el, s);
+    whole_->skips_rigid_ = false;
+  }
+  PressureFilter& whole = *whole_;
+  if (whole.share_.size() != s.x.size()) whole.renew(el, s);
+  for_slots(el, [&](SlotId i) { whole.J_[i] = s.volume[i] / s.V0[i]; });
   mean_stresses(el, whole.J_, whole.stress_);
   whole.average(el, s, whole.stress_, 1.0, whole.theta_);
   const double rough =

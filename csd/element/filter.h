@@ -10,6 +10,7 @@
 // for the plain one. The filter acts on the mean stress of the moment, never on a stored one: applied to a stored one
 // it would be a diffusion.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 
@@ -104,11 +105,17 @@ class PressureFilter {
   Field<double, SlotId> change_, volume_;             // plain: sigma_m - U' and volume of the last call
   Field<double, SlotId> gate_, eqps_, mean_, rough_;  // gated: 1 once it is open; of the last step; work space
   double work_ = 0;                                   // J
-  friend double checkerboard(const Elements&, const State&);
+  friend class Checkerboard;
 };
 
-/// Raw checkerboard indicator: sum V |p - A p| / sum V |p| with p = U'(J), 0 for a smooth field, about 1 for a
-/// checkerboard.
-double checkerboard(const Elements& elements, const State& s);
+/// Raw checkerboard indicator: sum V |p - A p| / sum V |p| with p = U'(J), J = State::volume / V0; 0 for a smooth field,
+/// about 1 for a checkerboard.
+class Checkerboard {
+ public:
+  double of(const Elements& elements, const State& s);
+
+ private:
+  std::optional<PressureFilter> whole_;  // A; its sums hold until nodes are split
+};
 
 }  // namespace bw::csd

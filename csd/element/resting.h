@@ -17,12 +17,17 @@ struct Resting {
   enum State : char { unseen, computed, skipped, reached, rigid };
   bool skip = true;          ///< false: such blocks are computed all the same, with the same result
   std::vector<State> state;  ///< [block], of the last call; empty: all reached
+  std::vector<char> has_moved;  ///< [node] work space: 1 if it has left where it was made
   int64_t skips = 0;         ///< blocks passed over, summed over the steps
   int64_t rigid_skips = 0;   ///< the same for those of rigid bodies
 
   /// Begins again: no block has been looked at.
   void start(int blocks) { state.assign(size_t(blocks), unseen); }
   bool any() const { return !state.empty(); }
+  /// Whether a block may be at rest.
+  bool looks() const {
+    return std::any_of(state.begin(), state.end(), [](State now) { return now < reached; });
+  }
   /// Whether all elements of a block, one of `blocks`, are rigid.
   void set_rigid(int block, bool is_rigid, int blocks) {
     if (state.empty()) {

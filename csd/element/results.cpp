@@ -8,6 +8,7 @@
 #include "common/parallel/loop.h"
 #include "csd/element/lanes.h"
 #include "csd/element/q1p0.h"
+#include "csd/rigid_blocks.h"
 
 namespace bw::csd {
 namespace {
@@ -150,11 +151,16 @@ Corners<double> element_force(const Elements& el, const State& s, SlotId slot) {
       el.materials[size_t(body)]);
 }
 
+StoredEnergy stored_energy(const Elements& el, const State& s, int block) {
+  const int body = el.body_of(SlotId(block * lanes));
+  return std::visit([&](const auto& m) { return stored_in_block(el, m, s, body, block); },
+                    el.materials[size_t(body)]);
+}
+
 StoredEnergy stored_energy(const Elements& el, const State& s) {
   std::vector<StoredEnergy> of_blocks(size_t(el.blocks.block_count()));
-  for_blocks(el.blocks, [&](int block, int body) {
-    of_blocks[size_t(block)] =
-        std::visit([&](const auto& m) { return stored_in_block(el, m, s, body, block); }, el.materials[size_t(body)]);
+  for_blocks(el.blocks, [&](int block, int) {
+    of_blocks[size_t(block)] = is_rigid_block(s, block) ? s.of_rigid[size_t(block)] : stored_energy(el, s, block);
   });
   if (el.ranks) el.ranks->complete_blocks(of_blocks);
   StoredEnergy all;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What elements bear and store, evaluated on demand from positions and history (nothing is committed).
 #pragma once
-#include <algorithm>
-
 #include "csd/element/elements.h"
 #include "csd/element/hex.h"
 
@@ -30,17 +28,10 @@ ElementResult evaluate(const Elements& elements, const State& s, SlotId slot,
 /// Nodal forces of an element [N] at U'(v/V), without filter and viscosity.
 Corners<double> element_force(const Elements& elements, const State& s, SlotId slot);
 
-struct StoredEnergy {
-  double elastic = 0, plastic = 0, heat = 0, collapse = 0;
-  double eqps_max = 0, temperature_max = 0;
-
-  void add(const StoredEnergy& e) {
-    elastic += e.elastic, plastic += e.plastic, heat += e.heat, collapse += e.collapse;
-    eqps_max = std::max(eqps_max, e.eqps_max), temperature_max = std::max(temperature_max, e.temperature_max);
-  }
-};
-/// Of all elements.
+/// Of all elements; those of rigid bodies' blocks (State::of_rigid) are not looked at.
 StoredEnergy stored_energy(const Elements& elements, const State& s);
+/// Of a block of this rank at s.x.
+StoredEnergy stored_energy(const Elements& elements, const State& s, int block);
 
 /// Whether the body's material heats by plastic work.
 bool heats(const Elements& elements, int body);

@@ -9,6 +9,7 @@
 
 #include "common/app/error.h"
 #include "common/parallel/loop.h"
+#include "csd/element/results.h"
 #include "csd/fragments/impact.h"
 #include "csd/model.h"
 
@@ -19,6 +20,7 @@ Rigid::Rigid(const RigidInput& input, const std::vector<std::string>& body_names
       motion_(input.motion == "six_dof" ? RigidBody::Motion::six_dof : RigidBody::Motion::translation),
       is_switched_(body_names.size(), 0),
       is_rigid_(size_t(mesh.node_count()), 0) {
+  for (int32_t n = 0; n < mesh.node_count(); ++n) free_.push_back(NodeId(n));
   for (const std::string& name : input.bodies) {
     const auto it = std::find(body_names.begin(), body_names.end(), name);
     if (it == body_names.end())
@@ -45,6 +47,10 @@ void Rigid::start(Model& m) {
 
 void Rigid::go_on(Model& m) {
   if (m.state.rigid.size() > 0) renew_marks(m);
+}
+
+int64_t Rigid::free_count(const State& s) const {
+  return int64_t(free_.size() + s.x.size() - is_rigid_.size());
 }
 
 void Rigid::complete(State& s) {
@@ -201,9 +207,11 @@ void Rigid::renew_marks(Model& m, size_t first) {
   State& s = m.state;
   if (first == 0) {
     s.rigid = Field<double, SlotId>(size_t(el.blocks.slot_count()));
-    is_rigid_.clear(), body_at_.clear();
+    is_rigid_.clear(), body_at_.clear(), free_.clear();
     kept_.clear(), elements_ = 0;
   }
+  for (size_t n = is_rigid_.size(); n < s.x.size(); ++n) free_.push_back(NodeId(int64_t(n)));
+  s.of_rigid.resize(size_t(el.blocks.block_count()));
   is_rigid_.resize(size_t(m.mesh.node_count()), 0), body_at_.resize(is_rigid_.size(), -1);
   std::vector<char> is_changed(size_t(el.blocks.block_count()), first == 0);
   for (size_t b = first; b < bodies_.size(); ++b) {
@@ -212,6 +220,7 @@ void Rigid::renew_marks(Model& m, size_t first) {
     for (const ElemId e : elems_[b]) s.rigid[el.blocks.slot[e]] = 1, is_changed[size_t(el.blocks.slot[e] / lanes)] = 1;
     s.local.set_level(bodies_[b].nodes(), s.local.top());
   }
+  std::erase_if(free_, [&](NodeId n) { return is_rigid_[size_t(n)]; });
   std::erase_if(kept_, [&](const Kept& kept) { return is_changed[size_t(kept.block)]; });
   for (int block = 0; block < el.blocks.block_count(); ++block)
     if (is_changed[size_t(block)]) renew_block(m, block);
@@ -233,8 +242,14 @@ void Rigid::renew_block(Model& m, int block) {
     s.rigid[SlotId(first + l)] = s.rigid[el.blocks.slot[el.blocks.elem[SlotId(first + l)]]];
     if (l < used) count += s.rigid[SlotId(first + l)] > 0;
   }
-  m.physics.resting.set_rigid(block, count == used, el.blocks.block_count());
-  if (count == 0 || count == used || !el.blocks.is_own(block)) return;
+  Resting& resting = m.physics.resting;
+  const bool was_rigid = resting.any() && resting.state[size_t(block)] == Resting::rigid;
+  resting.set_rigid(block, count == used, el.blocks.block_count());
+  if (count == 0 || !el.blocks.is_own(block)) return;
+  if (count == used) {
+    if (!was_rigid) s.of_rigid[size_t(block)] = stored_energy(el, s, block);
+    return;
+  }
   const PointHistory& histories = s.history[size_t(el.body_of(first))];
   Aligned<double> buffer(histories.block_size());
   const double* history = histories.read(el.blocks.row_of(el.body_of(first), block), buffer.data());

@@ -113,6 +113,12 @@ class Rigid {
   const std::vector<char>& is_rigid_node() const { return is_rigid_; }
   /// Place of a node's body in bodies(), -1: it has none.
   int32_t body_at(NodeId n) const { return size_t(n) < body_at_.size() ? body_at_[size_t(n)] : -1; }
+  /// Nodes of no body, ascending, the same on all ranks: how many of the state's, and the i-th.
+  int64_t free_count(const State& s) const;
+  NodeId free_node(int64_t i) const {
+    const int64_t later = i - int64_t(free_.size());
+    return later < 0 ? free_[size_t(i)] : NodeId(int64_t(is_rigid_.size()) + later);
+  }
   bool is_rigid(NodeId n) const { return size_t(n) < is_rigid_.size() && is_rigid_[size_t(n)]; }
   int64_t elements() const { return elements_; }  ///< that are rigid now
   /// What left the box, in all; null if there is none.
@@ -190,6 +196,7 @@ class Rigid {
   Followers followers_;           // unless all are asked for
   std::vector<char> is_rigid_;    // [node]
   std::vector<int32_t> body_at_;  // [node]
+  std::vector<NodeId> free_;      // of those in is_rigid_
   std::vector<Kept> kept_;
   std::vector<Record> records_;
   Left left_;

@@ -52,6 +52,13 @@ Vec3 RigidBody::response(const Vec3& at, const Vec3& from, const Vec3& impulse) 
   return impulse / mass_ + cross(turning, at);
 }
 
+double RigidBody::kinetic_product(double h) const {
+  const double flies = 0.5 * mass_ * dot(v_, v_) - 0.5 * h * h / mass_ * dot(F_, F_);
+  if (motion_ == Motion::translation) return flies;
+  const Vec3 turning = turned_ * (inverse_inertia_ * (transpose(turned_) * T_));
+  return flies + 0.5 * dot(omega_, L_) - 0.5 * h * h * dot(turning, T_);
+}
+
 Vec3 RigidBody::acceleration_at(const Vec3& arm) const {
   return F_ / mass_ + cross(turned_ * (inverse_inertia_ * (transpose(turned_) * T_)), arm);
 }

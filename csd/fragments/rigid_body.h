@@ -31,7 +31,11 @@ class alignas(64) RigidBody {
   Vec3 arm(size_t i) const { return turned_ * arm_[i]; }   ///< m, of a node, in space
   const Vec3& own_arm(size_t i) const { return arm_[i]; }  ///< m, in the body's frame
   Vec3 velocity_at(const Vec3& arm) const { return v_ + cross(omega_, arm); }
-  double kinetic_energy() const { return 0.5 * mass_ * dot(v_, v_) + 0.5 * dot(omega_, L_); }  ///< J
+  double kinetic_energy() const {  ///< J
+    const double flies = 0.5 * mass_ * dot(v_, v_);
+    return motion_ == Motion::translation ? flies : flies + 0.5 * dot(omega_, L_);
+  }
+  double kinetic_product(double h) const;  ///< J, of v - h a and v + h a, by the forces that were taken
   Vec3 acceleration_at(const Vec3& arm) const;  ///< m/s^2, by the forces that were taken
   /// Change of velocity at `at` by an impulse at `from` (arms in space) per impulse.
   Vec3 response(const Vec3& at, const Vec3& from, const Vec3& impulse) const;
@@ -92,8 +96,7 @@ class alignas(64) RigidBody {
   RigidBody() = default;
   void renew_spin();
 
-  // what a step reads of a body comes first: one line of the cache to fly, two to be
-  // pushed, three to turn
+  // what a step reads of a body comes first: one line of the cache to fly, two to be pushed, three to turn
   Vec3 x_, v_;
   double mass_ = 0;
   Motion motion_ = Motion::six_dof;
