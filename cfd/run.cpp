@@ -59,6 +59,19 @@ double courant_step(const Case& cs, const Model& m, const Sweep& sweep) {
   const double rate = sweep.max_rate(m.state);
   return rate > 0 ? cs.fluid.scheme.cfl / rate : 1e300;
 }
+/// No gas has a larger rho c [kg/(m^2 s)]: the densest cell's rho and the fastest one's rate.
+double largest_impedance(const Model& m, const Sweep& sweep) {
+  double rho = 0, h = 1e300;
+  for (int b = 0; b < m.forest.local_blocks(); ++b)
+    for (size_t c = 0; c < size_t(m.forest.shape(b).cells()); ++c) {
+      double U[Cons::most];
+      for (int q = 0; q < m.state.rows(); ++q) U[q] = m.state.block(b, q)[c];
+      rho = std::max(rho, m.setup.medium.density(U));
+    }
+  for (int d = 0; d < 3; ++d)
+    if (m.forest.shape().used[size_t(d)]) h = std::min(h, m.forest.shape().h[d]);
+  return m.forest.comm().max(rho) * h * sweep.max_rate(m.state);
+}
 /// The step towards `next`: whole, or in equal parts, so that no sliver is left.
 double step_towards(double t, double next, double dt) {
   const double left = next - t;
@@ -109,6 +122,7 @@ int run_alone(const Case& cs, Model& m) {
   open_model(m, cs, books, from ? &*from : nullptr);
   if (!from && cs.fluid.start_from && cs.fluid.start_from->keep_time) m.state.t = m.start->profile.t;
   Sweep sweep(m.forest, m.setup, m.walls ? &*m.walls : nullptr);
+  if (m.bodies && !m.bodies->free().empty() && !from) m.bodies->begin(largest_impedance(m, sweep));
   std::optional<Restored> written;
   if (from) written.emplace(from->file.section("output"));
   Output out(cs, m, cs.run.time.end, written ? &*written : nullptr);

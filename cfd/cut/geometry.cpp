@@ -117,6 +117,8 @@ std::vector<Part> parts_of(const coupling::WetSurface& surface, const std::vecto
     for (int d = 0; d < 3; ++d) {
       X[i][d] = (x[i][d] - lattice.lower[d]) / lattice.h[d];
       if (const double near = std::round(X[i][d]); std::abs(X[i][d] - near) < snap) X[i][d] = near;
+      // where the flow is the same all along, a body that reaches both sides goes on beyond them
+      if (!lattice.active(d) && (X[i][d] == 0 || X[i][d] == 1)) X[i][d] += X[i][d] == 0 ? -1 : 1;
     }
   std::vector<Part> parts;
   for (size_t face = 0; face < surface.quads.size(); ++face) {

@@ -318,7 +318,8 @@ void CutCellKernel::finish(const Cell& x, const double* U, const Flux& sum, cons
       Vec3 area;
       for (int d = 0; d < 3; ++d) area[d] = part.area[d] * face[d];
       const State near = on_lines(own, part.at);
-      const double p = gas_->at_wall(near, unit(-area), part.v).w[Gas::p];
+      const auto wall = gas_->at_wall(near, unit(-area), part.v);
+      const double p = wall.w[Gas::p];
       const Vec3 impulse = p * dt_ * area;
       const double work = dot(impulse, part.v), over = 1 / shape_.cell_volume();
       for (int d = 0; d < 3; ++d) content.U[GasCons::mom + d] -= over * impulse[d];
@@ -326,7 +327,7 @@ void CutCellKernel::finish(const Cell& x, const double* U, const Flux& sum, cons
       exchange_->momentum += impulse;
       exchange_->energy += work;
       ++exchange_->links;
-      LinkLoad load{part.face, impulse, dt_ * area, patch_->lower};
+      LinkLoad load{part.face, impulse, dt_ * area, patch_->lower, std::sqrt(Gas::rho(wall.w) * wall.rho_c2)};
       for (int d = 0; d < 3; ++d) load.at[d] += (x.at[size_t(d)] + part.at[d]) * h[d];
       links_->push_back(load);
     }

@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -212,6 +213,8 @@ class Bodies {
 
   // --- bodies that the flow moves
   const std::vector<FreeBody>& free() const { return free_; }
+  /// Before the first window: no gas around them has more than this rho c [kg/(m^2 s)].
+  void begin(double rho_c);
   /// The window of dt is over: its loads move the free bodies. Faces in closed gaps, whose loads are dry, take the
   /// pressure of the faces beside them.
   /// links: forces of conservative loads in place of pressures; nullptr: none.
@@ -223,6 +226,8 @@ class Bodies {
 
  private:
   void add_free(const BodyCase& body, const FreeMotion& motion, int32_t first_face);
+  /// largest_step() under gas of rho c A [kg/s] on each face of the surface.
+  void limit_step(const std::function<double(size_t)>& rho_c_area);
   /// Pressure above p_ref on the body's faces.
   std::vector<double> pressures_of(const FreeBody& f, const RigidBody::Place& at, const coupling::Loads& loads,
                                    double p_ref) const;

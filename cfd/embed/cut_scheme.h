@@ -36,6 +36,7 @@ struct LinkLoad {
   Vec3 impulse;       ///< N s, absolute pressure, in a frame that moves with the wall along the link
   Vec3 area_time;     ///< m^2 s: what one Pa at rest would have given
   Vec3 at;            ///< the crossing at mid-step [m]
+  double rho_c = 0;   ///< kg/(m^2 s), of the gas there; of cut cells, whose faces have no probes
 };
 
 /// What a wall feels at one point.

@@ -67,43 +67,59 @@ void Bodies::add_free(const BodyCase& body, const FreeMotion& motion, int32_t fi
   free_.push_back(std::move(f));
 }
 
-void Bodies::advance(double dt, const coupling::Loads& loads, double p_ref, const FaceForces* links) {
+void Bodies::limit_step(const std::function<double(size_t)>& rho_c_area) {
   largest_step_ = 1e300;
+  for (const FreeBody& f : free_) {
+    const Mat3 R = f.rigid.place().turn.matrix(), inv = f.rigid.inverse_inertia(f.rigid.place().turn);
+    Mat3 lag{};  // of translation; of the turns its trace
+    double turn_lag = 0;
+    for (size_t n = 0; n < f.area.size(); ++n) {
+      const double square = dot(f.area[n], f.area[n]),
+                   z = square > 0 ? rho_c_area(size_t(f.first_face) + n) / square : 0;
+      if (z == 0) continue;
+      const Vec3 A = R * f.area[n], b = R * f.lever[n];
+      for (int d = 0; d < 3; ++d)
+        for (int e = 0; e < 3; ++e)
+          if (f.rigid.free(d) && f.rigid.free(e)) lag(d, e) += z * A[d] * A[e];
+      turn_lag += z * dot(b, inv * b);
+    }
+    double most = 0;
+    for (const Vec3& row : lag.row) most = std::max(most, std::abs(row.x) + std::abs(row.y) + std::abs(row.z));
+    const double rate = most / f.rigid.mass().mass + turn_lag;
+    if (rate > 0) largest_step_ = std::min(largest_step_, lag_share / rate);
+  }
+}
+
+void Bodies::begin(double rho_c) {
+  limit_step([&](size_t face) { return rho_c * norm(coupling::area_vector(X_, surface_.quads[face])); });
+}
+
+void Bodies::advance(double dt, const coupling::Loads& loads, double p_ref, const FaceForces* links) {
   for (FreeBody& f : free_) {
     const RigidBody::Place half = f.rigid.halfway(dt), end = f.rigid.after(dt);
     const Mat3 R = half.turn.matrix();
     const std::vector<double> p = pressures_of(f, half, loads, p_ref);
     Vec3 force, moment;    // of pressures, in the body's axes
     Vec3 met, met_moment;  // of links, in the case's, about the origin
-    Mat3 lag{};            // of translation; of the turns its trace
-    double turn_lag = 0;
-    const Mat3 inv = f.rigid.inverse_inertia(half.turn);
     for (size_t n = 0; n < f.area.size(); ++n) {
       const size_t face = size_t(f.first_face) + n;
-      const double size = norm(f.area[n]), z = loads.impedance[face];
-      if (links && (z > 0 || links->met[face])) {
+      if (links && (loads.impedance[face] > 0 || links->met[face])) {
         met += links->force[face], met_moment += links->moment[face];
       } else {
         force += -p[n] * f.area[n];
         moment += -p[n] * f.lever[n];
       }
-      if (z == 0 || size == 0) continue;
-      const Vec3 A = R * f.area[n], b = R * f.lever[n];
-      for (int d = 0; d < 3; ++d)
-        for (int e = 0; e < 3; ++e)
-          if (f.rigid.free(d) && f.rigid.free(e)) lag(d, e) += z / size * A[d] * A[e];
-      turn_lag += z / size * dot(b, inv * b);
     }
-    double most = 0;
-    for (const Vec3& row : lag.row) most = std::max(most, std::abs(row.x) + std::abs(row.y) + std::abs(row.z));
-    const double rate = most / f.rigid.mass().mass + turn_lag;
-    if (rate > 0) largest_step_ = std::min(largest_step_, lag_share / rate);
     // the walls' own way: straight, and turning evenly
     const Vec3 way = end.shift - f.rigid.place().shift, turned = f.rigid.turn_angle(dt);
     force = met + R * force;
     moment = met_moment - cross(f.rigid.mass().centre + half.shift, met) + R * moment;
     f.rigid.advance(dt, force, moment, dot(force, way) + dot(moment, turned));
   }
+  limit_step([&](size_t face) {
+    const double of_links = links ? links->rho_c_area[face] : 0;
+    return of_links > 0 ? of_links : loads.impedance[face] * norm(coupling::area_vector(X_, surface_.quads[face]));
+  });
 }
 
 std::vector<double> Bodies::pressures_of(const FreeBody& f, const RigidBody::Place& at, const coupling::Loads& loads,

@@ -135,6 +135,7 @@ void Walls::set_links(const std::vector<LinkLoad>& links, double dt) {
   face_forces_.met.assign(faces, 0);
   face_forces_.force.assign(faces, {});
   face_forces_.moment.assign(faces, {});
+  face_forces_.rho_c_area.assign(faces, 0.0);
   for (const LinkLoad& l : links) {
     if (l.face < 0) continue;
     const size_t f = size_t(l.face);
@@ -142,6 +143,7 @@ void Walls::set_links(const std::vector<LinkLoad>& links, double dt) {
     face_forces_.met[f] = 1;
     face_forces_.force[f] += force;
     face_forces_.moment[f] += cross(l.at, force);
+    face_forces_.rho_c_area[f] += l.rho_c * norm(l.area_time) / dt;
   }
 }
 

@@ -34,6 +34,7 @@ struct FaceForces {
   std::vector<uint8_t> met;  ///< [n_faces] by a link
   std::vector<Vec3> force;   ///< [n_faces] N
   std::vector<Vec3> moment;  ///< [n_faces] N m about the origin, levers are the crossings
+  std::vector<double> rho_c_area;  ///< [n_faces] kg/s, of cut cells; else 0
 };
 
 /// [fluid.walls]

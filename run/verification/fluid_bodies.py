@@ -72,7 +72,22 @@ def c4b():
                 way = np.interp(t, motion["t"], motion["centre x"]) - motion["centre x"][0]
                 yield close(f"{name}: way", way, x, 0.005)
             yield close(f"{mass:g} kg/m2, {1e3 * h:g} mm: work of the gas against the kinetic energy", motion["work"][-1], motion["kinetic energy"][-1], 0.01)
+    yield from light_plates()
     yield from unpushed()
+
+
+def light_plates():
+    """Plates far lighter than the gas that they move, between 10 and 1 bar: they go with the gas between the shock and the fan that they don't hold back."""
+    n, t = 200, 2e-4
+    u = reference.Riemann((12.25, 0, 1013250.0), (1.225, 0, 101325.0), reference.GAS).u
+    for treatment in ("half_riemann", "cut_cell"):
+        for mass in (0.01, 0.001):
+            text = tube(0.0, 1.0, n, 0, ("wall", "wall"), t, f'[fluid.walls]\ntreatment = "{treatment}"\n') + material("air", reference.GAS)
+            text += region('{kind = "everywhere"}', "air", 1.225, 101325.0) + region('{kind = "half_space", point = [0.42, 0, 0], normal = [-1, 0, 0]}', "air", 12.25, 1013250.0)
+            text += (f'[[fluid.body]]\nname = "plate"\nshape = {{kind = "box", lower = [0.4, 0, 0], upper = [0.45, {1 / n!r}, {1 / n!r}]}}\n'
+                     f'motion = {{kind = "free", mass = {mass / n ** 2!r}, fixed = ["y", "z", "turn_x", "turn_y", "turn_z"]}}\n')
+            result = run(f"C4b_light_{treatment}_{mass:g}", text, only="fluid")
+            yield close(f"{treatment}: plate of {mass:g} kg/m2 between 10 and 1 bar, velocity after 0.2 ms", motion_of(result.directory, "plate")["velocity x"][-1], u, 0.01, result.seconds)
 
 
 def unpushed(extra="", note=""):

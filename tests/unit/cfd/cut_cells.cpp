@@ -56,6 +56,16 @@ TEST(CutCells, VolumesAreExact) {
   EXPECT_EQ(room.volume_of({1, 3, 3}), 1);
 }
 
+TEST(CutCells, ABodyAsLongAsAFlowOfOneCellGoesThroughIt) {
+  const Room plane(box({0.25, 0.25, 0}, {0.75, 0.5, 1}, 2), {8, 8, 1}), tube(box({0.3, 0, 0}, {0.75, 1, 1}, 2), {8, 1, 1});
+  EXPECT_NEAR(plane.volume(), 1 - 0.5 * 0.25, 1e-13);
+  EXPECT_NEAR(tube.volume(), 1 - 0.45, 1e-13);
+  for (const Room* room : {&plane, &tube})  // no facets across a direction without cells
+    for (const CutFacet& f : room->cut.facets())
+      for (int d = 0; d < 3; ++d)
+        if (!room->lattice.active(d)) EXPECT_EQ(f.area[d], 0);
+}
+
 TEST(CutCells, FacesAndFacetsCloseEveryCell) {
   const Room room(sphere({0.47, 0.52, 0.55}, 0.31, 6), {16, 16, 16});
   double moment = 0;

@@ -7,6 +7,7 @@
 #include "cfd/embed/lips.h"
 #include "cfd/embed/probes.h"
 #include "cfd/embed/scan.h"
+#include "cfd/embed/walls.h"
 #include "common/app/error.h"
 #include "common/io/keys.h"
 #include "embed_surfaces.h"
@@ -184,6 +185,8 @@ TEST(EmbedRigid, LoadsOfAFreeBody) {
   c.name = "a", c.shape = SphereShape{{0.5, 0.5, 0.5}, 0.3}, c.motion = free_motion(), c.turn_angle = 20;
   Bodies all({c}, setting);
   const size_t faces = all.at(0).quads.size();
+  all.begin(2.0);
+  const double at_first = all.largest_step();
   coupling::Loads loads;
   loads.p.assign(faces, 7.0), loads.impedance.assign(faces, 1.0);
   loads.p[5] = 1.0, loads.impedance[5] = 0;  // dry
@@ -194,6 +197,13 @@ TEST(EmbedRigid, LoadsOfAFreeBody) {
   // rho c A/m of a sphere: a third of its area
   EXPECT_NEAR(all.largest_step(), 0.3 * 4.0 / 3 * M_PI * 0.027 * 3 / (4.0 / 3 * M_PI * 0.09),
               0.02 * all.largest_step());
+  EXPECT_NEAR(at_first, 0.5 * all.largest_step(), 0.02 * at_first);
+  FaceForces facets;  // of cut cells: the loads know no rho c
+  facets.met.assign(faces, 1), facets.force.assign(faces, {}), facets.moment.assign(faces, {});
+  for (const auto& q : all.at(0).quads) facets.rho_c_area.push_back(2.0 * norm(coupling::area_vector(all.at(0).x, q)));
+  loads.impedance.assign(faces, 0.0);
+  all.advance(0.01, loads, 1.0, &facets);
+  EXPECT_NEAR(all.largest_step(), at_first, 1e-9 * at_first);
   BodyCase plate = c;
   plate.thin = true;
   EXPECT_THROW(Bodies({plate}, setting), InputError);
