@@ -160,13 +160,14 @@ void Cracks::take_over(Model& m, const std::vector<NodeSplit>& splits, const std
   for (const NodeSplit& split : splits) touched.push_back(split.parent), touched.push_back(split.child);
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  for (NodeId n :
-       touched) {  // children of children hold copies of the first parent's mass: all see the mass before the step
+  // children of children hold copies of the first parent's mass: all see the mass before the step
+  parallel_for(int64_t(touched.size()), [&, &mesh = mesh, &topology = topology, &s = s, &ph = ph](int64_t i) {
+    const NodeId n = touched[size_t(i)];
     const double before = s.m[n];
     s.m[n] = node_mass(mesh, ph.elements, topology.elements(n), n);
     s.f[n] = (s.m[n] / before) * s.f[n];
     if (ph.loads) ph.loads->forces()[n] = (s.m[n] / before) * ph.loads->forces()[n];
-  }
+  });
   ph.time_step.renew(mesh, topology, ph.elements, s, touched);
   if (ph.filter) ph.energy.cracks += ph.filter->open(mesh, topology, ph.elements, s, touched);
   relabelled_ = false;

@@ -95,16 +95,17 @@ void add_to_corners(const Blocks& blocks, int block, const Value& value, Field<d
       sum[NodeId(nodes[i])] += value(a, l);
   });
 }
-/// The same for work that adds to no node.
+/// The same for work that adds to no node. Some blocks cost nothing.
 template <class Work>
 void for_blocks(const Blocks& blocks, const Work& work) {
   const int bodies = int(blocks.first_block.size()) - 1;
   for (int body = 0; body < bodies; ++body) {
-    const int first = blocks.first_block[size_t(body)];
-    if (blocks.own.empty())
-      parallel_for(blocks.own_count(body), [&](int64_t i) { work(first + int(i), body); });
-    else
-      parallel_for(blocks.own_count(body), [&](int64_t i) { work(blocks.own[size_t(body)][size_t(i)], body); });
+    const int first = blocks.first_block[size_t(body)], count = blocks.own_count(body);
+    parallel_for_dynamic((count + blocks_per_chunk - 1) / blocks_per_chunk, [&](int64_t chunk) {
+      const int begin = int(chunk) * blocks_per_chunk;
+      for (int i = begin; i < std::min(count, begin + blocks_per_chunk); ++i)
+        work(blocks.own.empty() ? first + i : blocks.own[size_t(body)][size_t(i)], body);
+    });
   }
 }
 

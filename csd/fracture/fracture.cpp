@@ -28,6 +28,7 @@ void Fracture::begin_step(const Mesh& mesh) {
   waiting_ = 0;
   mean_.resize(size_t(mesh.node_count()));
   mean_step_.resize(size_t(mesh.node_count()), 0);
+  near_step_.resize(size_t(mesh.node_count()), 0);
 }
 
 void Fracture::forget(NodeId n) {
@@ -77,8 +78,11 @@ std::vector<ElemId> Fracture::broken_elements(const Mesh& mesh, const Topology& 
     if (fail[size_t(i)] < 1 || is_done_[near]) continue;
     look(near);
     if (!input_.is_smoothed) continue;
-    for (const NodeId n : mesh.hex[near])
+    for (const NodeId n : mesh.hex[near]) {
+      if (near_step_[n] == step_) continue;
+      near_step_[n] = step_;
       for (const ElemId e : topology.elements(n)) look(e);
+    }
   }
   if (input_.is_smoothed) average_nodes(mesh, topology, fail, seen);
   std::vector<char> is_broken(seen.size());

@@ -108,10 +108,10 @@ class Fracture {
   Field<double, ElemId> weight_;
   Field<int8_t, ElemId> opened_by_;  // faces that an element has opened
   Field<char, ElemId> is_done_;      // retired, or shares no node: nothing can open any more
-  // of the present step: nodal means that are known, elements seen or done
+  // of the present step: nodal means that are known, nodes near what has failed, elements seen or done
   int64_t step_ = 0;
   Field<double, NodeId> mean_;
-  Field<int64_t, NodeId> mean_step_;
+  Field<int64_t, NodeId> mean_step_, near_step_;
   Field<int64_t, ElemId> seen_step_, done_step_;
   int64_t opened_ = 0, waiting_ = 0;
 };
