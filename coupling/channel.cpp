@@ -2,6 +2,7 @@
 #include "coupling/channel.h"
 
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -216,6 +217,7 @@ Channel::Channel(const Comm& mine, MPI_Comm inter, Role role, const ChannelLimit
   const char* other = name_of(role == Role::solid ? Role::fluid : Role::solid);
   state_->bell = std::make_unique<Bell>(name_of(role), other, mine.rank());
   check_mpi(MPI_Comm_set_errhandler(inter, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  prctl(PR_SET_TIMERSLACK, 1000ul);  // ns: naps of 50 us would else last up to 100
   state_->become_active();
   state_->watch_silence();
 }

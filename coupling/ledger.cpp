@@ -64,13 +64,15 @@ void Ledger::begin(const WetSurface& surface) {
   }
   area_.resize(surface.quads.size()), size_.resize(area_.size()), lever_.resize(area_.size());
   enum { area, moment = 3, size = 6, sums };
-  const auto sum = exact_sums<sums>(area_.size(), [&](size_t f, std::array<double, sums>& s) {
+  const auto add_face = [&](size_t f, std::array<double, sums>& s) {
     area_[f] = area_vector(surface.x, surface.quads[f]);
     const Vec3 centre = face_mean(surface.x, surface.quads[f]);
     size_[f] = norm(area_[f]), lever_[f] = norm(centre);
     add_at(s, area, area_[f]), add_at(s, moment, cross(centre, area_[f]));
     s[size] += size_[f];
-  });
+  };
+  const int64_t alone = std::numeric_limits<int64_t>::max();  // the other cores are the fluid's, which receives
+  const auto sum = exact_sums<sums>(area_.size(), add_face, alone);
   area_sum_ = vector_at(sum, area), moment_sum_ = vector_at(sum, moment), size_sum_ = sum[size];
 }
 

@@ -8,15 +8,21 @@
 
 namespace bw::coupling {
 
-std::vector<Vec3> face_forces(const WetSurface& surface, const Loads& loads, double p_ref) {
-  const size_t n = surface.quads.size();
+std::vector<Vec3> area_vectors(const WetSurface& surface) {
+  std::vector<Vec3> area(surface.quads.size());
+  const auto find_area = [&](int64_t f) { area[size_t(f)] = area_vector(surface.x, surface.quads[size_t(f)]); };
+  parallel_for(int64_t(area.size()), find_area, worth_waking);
+  return area;
+}
+
+std::vector<Vec3> face_forces(std::span<const Vec3> area, const Loads& loads, double p_ref) {
+  const size_t n = area.size();
   BW_CHECK(loads.p.size() == n && (loads.traction.empty() || loads.traction.size() == n));
   std::vector<Vec3> force(n);
   const auto force_on = [&](int64_t i) {
     const size_t f = size_t(i);
-    const Vec3 area = area_vector(surface.x, surface.quads[f]);
-    force[f] = -(loads.p[f] - p_ref) * area;
-    if (!loads.traction.empty()) force[f] += norm(area) * loads.traction[f];
+    force[f] = -(loads.p[f] - p_ref) * area[f];
+    if (!loads.traction.empty()) force[f] += norm(area[f]) * loads.traction[f];
   };
   parallel_for(int64_t(n), force_on, worth_waking);
   return force;

@@ -49,13 +49,16 @@ struct Loads {
   FluidTotals totals;
 };
 
-/// The force of each face on the solid, -(P - p_ref) A [+ traction |A|], area vectors of `surface` [N].
-std::vector<Vec3> face_forces(const WetSurface& surface, const Loads& loads, double p_ref);
+/// Of each face [m^2].
+std::vector<Vec3> area_vectors(const WetSurface& surface);
+
+/// The force of each face on the solid, -(P - p_ref) A [+ traction |A|], by its area vector [N].
+std::vector<Vec3> face_forces(std::span<const Vec3> area, const Loads& loads, double p_ref);
 
 /// A face's force goes to its nodes in equal parts, quarters of a quad and thirds of a triangle: [n_nodes] N.
 std::vector<Vec3> nodal_loads(const WetSurface& surface, std::span<const Vec3> face_force);
 inline std::vector<Vec3> nodal_loads(const WetSurface& surface, const Loads& loads, double p_ref) {
-  return nodal_loads(surface, face_forces(surface, loads, p_ref));
+  return nodal_loads(surface, face_forces(area_vectors(surface), loads, p_ref));
 }
 
 /// The fluid's impulse, moment and work on the wetted faces for these loads; v_wall [n_nodes] is the velocity that the

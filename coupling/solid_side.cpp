@@ -110,7 +110,7 @@ void SolidSide::send(Window window, WetSurface& surface, std::span<const double>
     channel_.send(tag_faces, std::span<const int32_t>(faces_));
   }
   channel_.ring();
-  ledger_.begin(surface);  // a core that the fluid, which receives on one, doesn't use yet
+  ledger_.begin(surface);  // while the fluid receives
   channel_.flush();
 }
 

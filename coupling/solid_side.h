@@ -3,7 +3,7 @@
 //
 //   side.send({.t0 = t, .t1_max = t_allowed, .dt_stable = dt}, wet);      // x^n, v^n
 //   const Loads& loads = side.receive();                                  // P over [t, t1]
-//   const auto force = face_forces(wet, loads, cs.reference_pressure);    // constant over the window
+//   const auto force = nodal_loads(wet, loads, cs.reference_pressure);    // constant over the window
 //   EqualSubsteps sub(t, loads.t1); while (!sub.done()) { ...; side.add(substep_totals(...)); }
 //   side.end_window(x_of_the_sent_nodes);
 //

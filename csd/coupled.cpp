@@ -34,17 +34,11 @@ coupling::Hello hello_of(const Case& cs, const Model& m, const coupling::WetSurf
   return h;
 }
 
-/// Mass behind each wet face, that of its element, per area [kg/m^2].
-std::vector<double> areal_mass(const Model& m, const Surface& surface) {
-  std::vector<double> result(surface.faces().size());
-  parallel_for(int64_t(result.size()), [&](int64_t f) {
-    const ElemId e = surface.faces()[size_t(f)].elem;
-    const double density = std::visit([](const auto& material) { return material.density; },
-                                      m.physics.elements.materials[size_t(m.mesh.body[e])]);
-    result[size_t(f)] = density * m.state.V0[m.physics.elements.blocks.slot[e]] /
-                        norm(coupling::area_vector(surface.wet().x, surface.wet().quads[size_t(f)]));
-  });
-  return result;
+/// Of an element [kg].
+double mass_of(const Model& m, ElemId e) {
+  const double density = std::visit([](const auto& material) { return material.density; },
+                                    m.physics.elements.materials[size_t(m.mesh.body[e])]);
+  return density * m.state.V0[m.physics.elements.blocks.slot[e]];
 }
 
 /// The step that a run takes, over the stable one.
@@ -77,8 +71,10 @@ Coupled::Coupled(coupling::Channel& channel, const Case& cs, Model& m, const Pai
 }
 
 std::vector<Vec3> Coupled::positions(const Model& m) const {
-  std::vector<Vec3> x(nodes_.size());
-  parallel_for(int64_t(x.size()), [&](int64_t i) { x[size_t(i)] = m.state.x[nodes_[size_t(i)]]; });
+  const std::vector<NodeId>& nodes = surface_.nodes();
+  std::vector<Vec3> x(nodes.size());
+  const auto take = [&](int64_t i) { x[size_t(i)] = m.state.x[nodes[size_t(i)]]; };
+  parallel_for(int64_t(x.size()), take, worth_waking);
   return x;
 }
 
@@ -106,20 +102,22 @@ void Coupled::commit_with_next(const std::string& file, int keep) {
 
 double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   if (to_commit_) to_commit_->window = side_->next_window(), to_commit_->t = m.state.t;
-  std::vector<double> mass;
+  std::vector<double> areal_mass;
   {
     const Timed timed("surface");
     surface_.update(m.mesh, m.topology, m.state.x, m.state.v);
-    nodes_ = surface_.nodes();
     x_ = surface_.wet().x;
-    mass = areal_mass(m, surface_);
+    area_ = coupling::area_vectors(surface_.wet());
+    while (mass_.size() < area_.size()) mass_.push_back(mass_of(m, surface_.faces()[mass_.size()].elem));
+    areal_mass.resize(area_.size());
+    for (size_t f = 0; f < area_.size(); ++f) areal_mass[f] = mass_[f] / norm(area_[f]);
   }
-  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), mass);
+  side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), areal_mass);
   const std::optional<coupling::Loads> expected = side_->expect();
   const coupling::Loads& loads = expected ? *expected : side_->receive();
   if (!expected) hear();
   const Timed timed("surface");
-  const std::vector<Vec3> on_faces = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
+  std::vector<Vec3> on_faces = coupling::face_forces(area_, loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), on_faces);
   const double dt = loads.t1 - m.state.t;
   std::vector<Vec3> back = renew_radiation(m, loads, dt_stable, dt);
@@ -128,11 +126,8 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
   owed_.clear();
   if (expected) expected_ = Expected{on_faces, m.state.t, {}};
   back_ = back.empty() ? std::vector<Vec3>{} : coupling::nodal_loads(surface_.wet(), back);
-  std::vector<std::pair<Face, Vec3>> forces;
-  forces.reserve(on_faces.size());
-  for (size_t i = 0; i < on_faces.size(); ++i)
-    forces.emplace_back(surface_.faces()[i], back.empty() ? on_faces[i] : on_faces[i] + back[i]);
-  change_given_forces(m, std::move(forces));
+  for (size_t i = 0; i < back.size(); ++i) on_faces[i] += back[i];
+  change_given_forces(m, surface_.faces(), std::move(on_faces));
   return loads.t1;
 }
 
@@ -149,7 +144,7 @@ void Coupled::settle() {
   const coupling::Loads& loads = side_->receive();
   hear();
   const double dt = loads.t1 - expected_->t0;
-  std::vector<Vec3> lacking = coupling::face_forces(surface_.wet(), loads, case_.coupling.reference_pressure);
+  std::vector<Vec3> lacking = coupling::face_forces(area_, loads, case_.coupling.reference_pressure);
   force_ = coupling::nodal_loads(surface_.wet(), lacking);
   for (size_t i = 0; i < lacking.size(); ++i) lacking[i] -= expected_->on_faces[i];
   const std::vector<Vec3>& start = surface_.wet().x;
@@ -176,11 +171,10 @@ std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& load
   const auto radiate = [&](int64_t f) {
     const size_t i = size_t(f);
     const auto& quad = surface_.wet().quads[i];
-    const Vec3 area = coupling::area_vector(surface_.wet().x, quad);
-    const double size = norm(area);
+    const double size = norm(area_[i]);
     faces[i].face = surface_.faces()[i];
     if (!(size > 0) || loads.impedance.empty()) return;
-    faces[i] = {surface_.faces()[i], area / size, loads.impedance[i] * size, 0};
+    faces[i] = {surface_.faces()[i], area_[i] / size, loads.impedance[i] * size, 0};
     faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);
   };
   parallel_for(int64_t(n), radiate, worth_waking);

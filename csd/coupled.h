@@ -61,7 +61,8 @@ class Coupled {
 
   const Case& case_;
   Surface surface_;
-  std::vector<NodeId> nodes_;    ///< of the surface as sent
+  std::vector<Vec3> area_;       ///< per face of it: m^2
+  std::vector<double> mass_;     ///< per face: kg, of the element behind it; faces keep their places
   std::vector<Vec3> force_, x_;  ///< per node of it: N in this window; m, where it is by now
   std::vector<Vec3> back_;       ///< per node: N in this window, that give back what radiation advanced, or owed_
   struct Expected {

@@ -158,11 +158,11 @@ double stable_step(Model& m) {
   return omega2 > 0 ? 2 / std::sqrt(4 / (elements * elements) + omega2) : elements;
 }
 
-void change_given_forces(Model& m, std::vector<std::pair<Face, Vec3>> forces) {
+void change_given_forces(Model& m, std::span<const Face> faces, std::vector<Vec3> forces) {
   for (auto& kind : m.physics.conditions) std::visit([&](auto& c) { c.reaction.give_back(m.state); }, kind);
   if (m.physics.relaxation) m.physics.relaxation->reaction.give_back(m.state);
   if (m.physics.rigid) m.physics.rigid->give_back(m.state);
-  m.physics.loads->replace_given(m.mesh, std::move(forces), m.state);
+  m.physics.loads->replace_given(m.mesh, faces, std::move(forces), m.state);
   on_force(m, 0);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "csd/model.h"
@@ -13,8 +13,8 @@ void first_forces(Model& model);
 void step(Model& model, double dt);
 /// Bound of the stable step of elements and conditions at the present state [s].
 double stable_step(Model& model);
-/// Forces [N] from outside on faces, from now on. Those at the state's time are exchanged too, so that each step of the
-/// coming window has them from its start to its end.
-void change_given_forces(Model& model, std::vector<std::pair<Face, Vec3>> forces);
+/// Forces [N] from outside on faces, from now on, one each. Those at the state's time are exchanged too, so that each
+/// step of the coming window has them from its start to its end.
+void change_given_forces(Model& model, std::span<const Face> faces, std::vector<Vec3> forces);
 
 }  // namespace bw::csd

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums whose round-off does not grow with the number of terms (Neumaier's compensated sum): books that must close to
-// 1e-12.
+// Sums whose round-off does not grow with the number of terms (each addition's exact rounding error is kept, Knuth's
+// TwoSum): books that must close to 1e-12.
 #pragma once
 #include <cmath>
 #include <cstddef>
@@ -16,8 +16,8 @@ constexpr size_t terms_at_once = 16;
 class ExactSum {
  public:
   ExactSum& operator+=(double a) {
-    const double t = sum_ + a;
-    lost_ += std::abs(sum_) >= std::abs(a) ? (sum_ - t) + a : (a - t) + sum_;
+    const double t = sum_ + a, added = t - sum_;
+    lost_ += (sum_ - (t - added)) + (a - added);
     sum_ = t;
     return *this;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "common/math/sum.h"
@@ -12,9 +13,9 @@
 namespace bw {
 
 /// n sums over [0, count), light ones: add(i, sums) adds the terms of i to plain sums of a few. Bit-equal for any
-/// number of threads.
+/// number of threads; of at most `alone` terms no other one is woken.
 template <size_t n, class Add>
-std::array<double, n> exact_sums(size_t count, const Add& add) {
+std::array<double, n> exact_sums(size_t count, const Add& add, int64_t alone = worth_waking) {
   constexpr size_t chunk = 64 * terms_at_once;
   std::vector<std::array<ExactSum, n>> parts((count + chunk - 1) / chunk);
   const auto sum_chunk = [&](int64_t c) {
@@ -27,7 +28,7 @@ std::array<double, n> exact_sums(size_t count, const Add& add) {
     }
     parts[size_t(c)] = exact;
   };
-  parallel_for(int64_t(parts.size()), sum_chunk, worth_waking / int64_t(chunk));
+  parallel_for(int64_t(parts.size()), sum_chunk, alone / int64_t(chunk));
   std::array<ExactSum, n> exact;
   for (const auto& part : parts)
     for (size_t k = 0; k < n; ++k) exact[k] += part[k].value();

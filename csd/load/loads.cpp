@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/app/error.h"
 #include "common/parallel/loop.h"
 
 namespace bw::csd {
@@ -95,22 +96,23 @@ double Loads::power(const State& s) const {
 void Loads::spread_given(const Mesh& mesh) {
   given_f_.resize(f_.size());
   for (const NodeId n : nodes_) given_f_[n] = {};
-  for (const auto& [face, f] : given_)
-    for (NodeId n : mesh.nodes_of(face)) given_f_[n] += 0.25 * f;
+  for (size_t i = 0; i < given_.size(); ++i)
+    for (NodeId n : mesh.nodes_of(given_faces_[i])) given_f_[n] += 0.25 * given_[i];
   is_spread_ = true;
 }
 
-void Loads::replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s) {
+void Loads::replace_given(const Mesh& mesh, std::span<const Face> faces, std::vector<Vec3> forces, State& s) {
+  BW_CHECK(forces.size() == faces.size());
   const auto take_off = [&](int64_t i) { s.f[nodes_[size_t(i)]] -= f_[nodes_[size_t(i)]]; };
   parallel_for(int64_t(nodes_.size()), take_off, worth_waking);
-  const bool same_faces = std::equal(given_.begin(), given_.end(), forces.begin(), forces.end(),
-                                     [](const auto& a, const auto& b) { return a.first == b.first; });
   given_ = std::move(forces);
   std::vector<NodeId> nodes;
-  if (!same_faces)
-    for (const auto& [face, f] : given_)
+  if (!std::equal(given_faces_.begin(), given_faces_.end(), faces.begin(), faces.end())) {
+    given_faces_.assign(faces.begin(), faces.end());
+    for (const Face face : faces)
       for (const NodeId n : mesh.nodes_of(face))
         if (!is_loaded_[n]) nodes.push_back(n);
+  }
   follow(nodes);
   is_spread_ = false;
   add(mesh, s.t, s, worth_waking);

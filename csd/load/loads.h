@@ -28,10 +28,10 @@ class Loads {
   /// Forces at positions s.x and time t; added to s.f of nodes that are due. Of at most `alone` nodes or faces no other
   /// thread is woken.
   void add(const Mesh& mesh, double t, State& s, int64_t alone = 256);
-  /// Forces [N] from outside (a fluid) on faces, a quarter on each node, which every add() includes until they are
+  /// Forces [N] from outside (a fluid), one a face, a quarter on each node, which every add() includes until they are
   /// replaced. The present ones are exchanged in s.f too. Cracks need no care: a face takes its force along to its new
   /// nodes. radiation, where begun, acts likewise.
-  void replace_given(const Mesh& mesh, std::vector<std::pair<Face, Vec3>> forces, State& s);
+  void replace_given(const Mesh& mesh, std::span<const Face> faces, std::vector<Vec3> forces, State& s);
   /// To be begun before replace_given.
   std::optional<Radiation> radiation;
   /// W: power of the forces of the last add() at the velocities s.v; of nodes that are due, times their steps over the
@@ -77,7 +77,8 @@ class Loads {
   std::vector<LoadKind> kinds_;
   void follow(const std::vector<NodeId>& nodes);
   void spread_given(const Mesh& mesh);
-  std::vector<std::pair<Face, Vec3>> given_;
+  std::vector<Face> given_faces_;
+  std::vector<Vec3> given_;        // N, on each of them
   Field<Vec3, NodeId> given_f_;    // N, of given_; empty without
   bool is_spread_ = true;          // given_f_ is up to date
   double t_ = 0;                   // s, of the last add()

@@ -70,8 +70,9 @@ TEST(Loads, GoOverLoadedNodesAlone) {
   for (int32_t n = 0; n < mesh.node_count(); ++n) is_loaded += loads.is_loaded(NodeId(n));
   EXPECT_EQ(is_loaded, 41 * 21);
   const std::vector<Face> loaded = mesh.face_sets.at("y_lower");
-  std::vector<std::pair<Face, Vec3>> given;
-  for (const Face f : mesh.face_sets.at("x_upper")) given.push_back({f, {0, 0, 3e3 + f.elem}});
+  const std::vector<Face> given_faces = mesh.face_sets.at("x_upper");
+  std::vector<Vec3> given;
+  for (const Face f : given_faces) given.push_back({0, 0, 3e3 + f.elem});
   const auto expected = [&](double t) {
     Field<Vec3, NodeId> f(mesh.X.size());
     for (const Face face : loaded) {
@@ -80,8 +81,8 @@ TEST(Loads, GoOverLoadedNodesAlone) {
       if (const double p = front.pressure(centre_of(x), t); p > 0)
         add_pressure(x, p, [&](size_t a) -> Vec3& { return f[n[a]]; });
     }
-    for (const auto& [face, force] : given)
-      for (const NodeId n : mesh.nodes_of(face)) f[n] += 0.25 * force;
+    for (size_t i = 0; i < given.size(); ++i)
+      for (const NodeId n : mesh.nodes_of(given_faces[i])) f[n] += 0.25 * given[i];
     return f;
   };
   const auto expect_all = [&](double t) {
@@ -96,7 +97,7 @@ TEST(Loads, GoOverLoadedNodesAlone) {
     EXPECT_GT(largest, 1e3);
     EXPECT_NEAR(loads.power(s), power, 1e-9 * std::abs(power));
   };
-  loads.replace_given(mesh, given, s);  // at t = 0: no front yet
+  loads.replace_given(mesh, given_faces, given, s);  // at t = 0: no front yet
   expect_all(0);
   s.f = Field<Vec3, NodeId>(mesh.X.size());
   loads.add(mesh, 0.6e-3, s);

@@ -127,13 +127,14 @@ TEST(Radiation, ActsAmongTheGivenLoads) {
   Loads loads(scene.mesh, {});
   loads.radiation.emplace();
   loads.radiation->begin(scene.mesh, scene.s, scene.faces, 0.3);
-  std::vector<std::pair<Face, Vec3>> given;
-  for (const RadiatingFace& face : scene.faces) given.push_back({face.face, {8, 0, 0}});
-  loads.replace_given(scene.mesh, given, scene.s);
+  std::vector<Face> faces;
+  for (const RadiatingFace& face : scene.faces) faces.push_back(face.face);
+  const std::vector<Vec3> given(faces.size(), {8, 0, 0});
+  loads.replace_given(scene.mesh, faces, given, scene.s);
   EXPECT_NEAR(sum_of(scene.s.f).x, 4 * (8 - 2), 1e-12);
   EXPECT_NEAR(loads.power(scene.s), 4 * (8 - 2) * 3, 1e-11);
   loads.radiation.reset();  // what it did is taken back
-  loads.replace_given(scene.mesh, given, scene.s);
+  loads.replace_given(scene.mesh, faces, given, scene.s);
   EXPECT_NEAR(sum_of(scene.s.f).x, 4 * 8, 1e-12);
 }
 
