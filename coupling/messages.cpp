@@ -263,7 +263,10 @@ Verdict check_connectivity(const WetSurface& surface) {
   if (surface.v.size() != nodes || surface.node_id.size() != nodes || surface.node_parent.size() != nodes ||
       surface.face_id.size() != faces || surface.body.size() != faces || surface.flags.size() != faces)
     return Fault{exit_malformed, "SURFACE: arrays of different lengths"};
-  for (size_t f = 0; f < faces; ++f)
+  uint32_t largest = 0;  // a negative one is larger than any that may be
+  for (const auto& quad : surface.quads)
+    for (const int32_t node : quad) largest = std::max(largest, uint32_t(node));
+  for (size_t f = 0; f < faces && largest >= nodes; ++f)
     for (const int32_t node : surface.quads[f])
       if (node < 0 || size_t(node) >= nodes)
         return Fault{exit_bad_value, fmt::format("SURFACE: face {} names node {} of {}", f, node, nodes)};

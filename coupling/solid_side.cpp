@@ -68,8 +68,11 @@ void SolidSide::send(Window window, WetSurface& surface, std::span<const double>
   window_ = window;
   sent_ = &surface;
   channel_.set_place(window.index, window.t0);
-  if (!channel_.leader()) return;
+  if (channel_.leader()) give(window, surface);
+  channel_.share(surface.v);
+}
 
+void SolidSide::give(const Window& window, WetSurface& surface) {
   const bool renewed = surface.topo_version != topo_version_;
   topo_version_ = surface.topo_version;
   const double room = window.t1_max - window.t0;
@@ -125,7 +128,6 @@ std::optional<Loads> SolidSide::expect() {
   loads.t1 = window_.t1_max;
   channel_.share(loads.p);
   channel_.share(loads.impedance);
-  channel_.share(sent_->v);
   return loads;
 }
 
@@ -165,7 +167,6 @@ const Loads& SolidSide::receive() {
   channel_.share(loads_.p);
   channel_.share(loads_.traction);
   channel_.share(loads_.impedance);
-  if (!loads_.impedance.empty()) channel_.share(sent_->v);
   asks_checkpoint_ = false;
   loads_.t1 = load.t1;
   loads_.checkpoint = load.flags & load_checkpoint;

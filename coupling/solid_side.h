@@ -39,7 +39,8 @@ class SolidSide {
 
   /// Window.index and mean_pressure are set here, t1_max is clipped to t_end(), window_max and what light faces stand
   /// (areal_mass [n_faces] kg/m^2: of the part of the solid that moves with the face in one window, its element; empty:
-  /// unknown). The leader's surface.v is v^n, and afterwards what was announced, the predicted velocity of the walls.
+  /// unknown). The leader's surface.v is v^n; afterwards it is what was announced on all ranks, the predicted velocity
+  /// of the walls.
   /// The surface must stay as it is until end_window().
   void send(Window window, WetSurface& surface, std::span<const double> areal_mass = {});
   /// Under concurrent, while the fluid computes its answer: the loads to go on with, to the window's end, which is
@@ -48,9 +49,6 @@ class SolidSide {
   std::optional<Loads> expect();
   /// Checked: t0 < t1 <= t1_max, one finite P per face. Valid until the next send.
   const Loads& receive();
-  /// [n_nodes] m/s: the velocities of the walls that the last send announced; known on all ranks after expect or
-  /// receive, if the fluid told impedances.
-  const std::vector<Vec3>& announced() const { return sent_->v; }
   /// Of the protocol's version, that both programs speak (leader).
   uint32_t minor() const { return minor_; }
   /// The fluid can keep its state.
@@ -95,6 +93,8 @@ class SolidSide {
  private:
   void resume_table(int64_t rows);
   void gather_connectivity(const WetSurface& surface);
+  /// The leader's part of send().
+  void give(const Window& window, WetSurface& surface);
   /// The window's end, where the solid leads or computes beside the fluid.
   void fix(Window& window) const;
 

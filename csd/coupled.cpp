@@ -113,6 +113,7 @@ double Coupled::exchange(Model& m, double dt_stable, double t_max) {
     for (size_t f = 0; f < area_.size(); ++f) areal_mass[f] = mass_[f] / norm(area_[f]);
   }
   side_->send({.t0 = m.state.t, .t1_max = t_max, .dt_stable = dt_stable}, surface_.wet(), areal_mass);
+  if (m.physics.loads->radiation) prepare_radiation();
   const std::optional<coupling::Loads> expected = side_->expect();
   const coupling::Loads& loads = expected ? *expected : side_->receive();
   if (!expected) hear();
@@ -159,27 +160,31 @@ void Coupled::settle() {
   expected_.reset();
 }
 
+void Coupled::prepare_radiation() {
+  const Timed timed("surface");
+  const coupling::WetSurface& wet = surface_.wet();
+  radiating_.face = surface_.faces();
+  radiating_.n.assign(area_.size(), {}), radiating_.told.assign(area_.size(), 0.0);
+  for (size_t f = 0; f < area_.size(); ++f) {
+    const double size = norm(area_[f]);
+    if (!(size > 0)) continue;
+    radiating_.n[f] = area_[f] / size;
+    radiating_.told[f] = dot(coupling::face_mean(wet.v, wet.quads[f]), radiating_.n[f]);
+  }
+}
+
 std::vector<Vec3> Coupled::renew_radiation(Model& m, const coupling::Loads& loads, double dt_stable, double dt) {
   auto& radiation = m.physics.loads->radiation;
   if (!radiation) return {};
-  const size_t n = surface_.faces().size();
-  std::vector<Vec3> back(n);
+  std::vector<Vec3> back(area_.size());
   // faces keep their places; under box1 the fluid's walls jump to the solid, and nothing is repaid
   if (case_.coupling.kind() != coupling::Scheme::box1)
     for (size_t i = 0; i < radiation->impulses().size(); ++i) back[i] = radiation->impulses()[i] / -dt;
-  std::vector<RadiatingFace> faces(n);
-  const auto radiate = [&](int64_t f) {
-    const size_t i = size_t(f);
-    const auto& quad = surface_.wet().quads[i];
-    const double size = norm(area_[i]);
-    faces[i].face = surface_.faces()[i];
-    if (!(size > 0) || loads.impedance.empty()) return;
-    faces[i] = {surface_.faces()[i], area_[i] / size, loads.impedance[i] * size, 0};
-    faces[i].told = dot(coupling::face_mean(side_->announced(), quad), faces[i].n);
-  };
-  parallel_for(int64_t(n), radiate, worth_waking);
+  radiating_.impedance = loads.impedance;
+  radiating_.impedance.resize(area_.size());
+  for (size_t f = 0; f < area_.size(); ++f) radiating_.impedance[f] *= norm(area_[f]);
   const double share = step_share(case_.solid.time_step, dt_stable);
-  radiation->begin(m.mesh, m.state, std::move(faces), 1.8 * std::fmax(0, 1 - share * share));
+  radiation->begin(m.mesh, m.state, std::move(radiating_), 1.8 * std::fmax(0, 1 - share * share));
   return back;
 }
 

@@ -55,6 +55,8 @@ class Coupled {
   void hear();
   /// The true answer to a window that went by the expected one: what was lacking is owed to the next window.
   void settle();
+  /// What radiates in this window, but for the impedances that the fluid will answer.
+  void prepare_radiation();
   /// Forces on faces [N] that give back the impulses that radiation advanced in the window before, and radiation for
   /// this one, dt long.
   std::vector<Vec3> renew_radiation(Model& model, const coupling::Loads& loads, double dt_stable, double dt);
@@ -64,6 +66,7 @@ class Coupled {
   std::vector<Vec3> area_;       ///< per face of it: m^2
   std::vector<double> mass_;     ///< per face: kg, of the element behind it; faces keep their places
   std::vector<Vec3> force_, x_;  ///< per node of it: N in this window; m, where it is by now
+  RadiatingFaces radiating_;     ///< per face, until radiation begins
   std::vector<Vec3> back_;       ///< per node: N in this window, that give back what radiation advanced, or owed_
   struct Expected {
     std::vector<Vec3> on_faces;    ///< N

@@ -15,12 +15,14 @@
 
 namespace bw::csd {
 
-/// A wet face in one window.
-struct RadiatingFace {
-  Face face;
-  Vec3 n;                ///< unit, into the fluid
-  double impedance = 0;  ///< rho c times area [kg/s]; 0: none
-  double told = 0;       ///< m/s along n: the mean of its nodes that the fluid was told
+/// The wet faces in one window, lists of one length.
+struct RadiatingFaces {
+  std::vector<Face> face;
+  std::vector<Vec3> n;            ///< unit, into the fluid
+  std::vector<double> told;       ///< m/s along n: the mean of its nodes that the fluid was told
+  std::vector<double> impedance;  ///< rho c times area [kg/s]; 0: none
+
+  size_t size() const { return face.size(); }
 };
 
 class Radiation {
@@ -29,7 +31,7 @@ class Radiation {
   /// around it). Beyond it impedances are taken smaller, so that the step stays stable: with forces by the last
   /// half-step's velocity that needs (h/h_stable)^2 + h c/(2 m) < 1. They are found anew when nodes were split, whose
   /// children are lighter, and when steps become longer, of all nodes or by renew().
-  void begin(const Mesh& mesh, const State& s, std::vector<RadiatingFace> faces, double largest);
+  void begin(const Mesh& mesh, const State& s, RadiatingFaces faces, double largest);
   /// Steps of nodes have changed: the bound is taken anew.
   void renew() { dt_ = 0; }
   /// Forces at s.v, added to f. Of at most `alone` nodes or faces no other thread is woken.
@@ -51,9 +53,9 @@ class Radiation {
   void fit(const Mesh& mesh);
   void bound(const State& s);
 
-  std::vector<RadiatingFace> faces_;  // none if none has an impedance
-  std::vector<double> acting_;        // kg/s: part of their impedances
-  std::vector<double> force_;         // N along n, of them
+  RadiatingFaces faces_;        // none if none has an impedance
+  std::vector<double> acting_;  // kg/s: part of their impedances
+  std::vector<double> force_;   // N along n, of them
   std::vector<Vec3> impulse_;
   double work_ = 0;
   double largest_ = 0, dt_ = 0;  // bound; stable step [s] for which it was taken, 0: it must be taken anew

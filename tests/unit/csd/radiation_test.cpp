@@ -11,14 +11,16 @@ namespace {
 struct Scene {
   Mesh mesh = box({0, 0, 0}, {0.1, 0.1, 0.1}, {1, 2, 2});
   State s;
-  std::vector<RadiatingFace> faces;
+  RadiatingFaces faces;
 
   Scene() {
     s.resize(mesh.X.size(), 0);
     s.x = mesh.X;
     s.dt_stable = 1e-6;
     for (size_t n = 0; n < s.m.size(); ++n) s.m[NodeId(int64_t(n))] = 0.01, s.v[NodeId(int64_t(n))] = {3, 7, -2};
-    for (const Face f : mesh.face_sets.at("x_upper")) faces.push_back({f, {1, 0, 0}, 400 * 0.05 * 0.05, 1});
+    faces.face = mesh.face_sets.at("x_upper");
+    faces.n.assign(faces.size(), {1, 0, 0}), faces.told.assign(faces.size(), 1);
+    faces.impedance.assign(faces.size(), 400 * 0.05 * 0.05);
   }
 };
 Vec3 sum_of(const Field<Vec3, NodeId>& f) {
@@ -29,7 +31,7 @@ Vec3 sum_of(const Field<Vec3, NodeId>& f) {
 
 TEST(Radiation, PlaneWaveOfTheDifference) {
   Scene scene;
-  scene.faces[2].impedance = 0;
+  scene.faces.impedance[2] = 0;
   Radiation radiation;
   radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
   Field<Vec3, NodeId> f(scene.mesh.X.size());
@@ -46,7 +48,7 @@ TEST(Radiation, PlaneWaveOfTheDifference) {
 
 TEST(Radiation, DenseGasBeforeLightNodesIsHeldBack) {
   Scene scene;
-  for (RadiatingFace& face : scene.faces) face.impedance = 1e9;
+  scene.faces.impedance.assign(scene.faces.size(), 1e9);
   Radiation radiation;
   radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
   Field<Vec3, NodeId> f(scene.mesh.X.size());
@@ -67,11 +69,11 @@ double strongest(const Scene& scene, const Field<Vec3, NodeId>& f) {
 
 TEST(Radiation, LighterChildrenAndLongerStepsAreHeldBackWithinAWindow) {
   Scene scene;
-  for (RadiatingFace& face : scene.faces) face.impedance = 60 / 1e-6 * 0.01;
+  scene.faces.impedance.assign(scene.faces.size(), 60 / 1e-6 * 0.01);
   Topology topology(scene.mesh);
   Radiation radiation;
   radiation.begin(scene.mesh, scene.s, scene.faces, 0.3);
-  const Face cut = scene.faces[0].face;
+  const Face cut = scene.faces.face[0];
   NodeId middle;  // of all four faces
   for (const NodeId n : scene.mesh.nodes_of(cut))
     if (topology.elements(n).size() == 4) middle = n;
@@ -97,8 +99,10 @@ TEST(Radiation, ThreadsDontChangeBits) {
   State s;
   s.resize(mesh.X.size(), 0);
   s.x = mesh.X, s.dt_stable = 1e-6;
-  std::vector<RadiatingFace> faces;
-  for (const Face f : mesh.face_sets.at("x_upper")) faces.push_back({f, {0.6, 0.8, 0}, 1 + 0.01 * f.elem.value, 1});
+  RadiatingFaces faces;
+  faces.face = mesh.face_sets.at("x_upper");
+  faces.n.assign(faces.size(), {0.6, 0.8, 0}), faces.told.assign(faces.size(), 1);
+  for (const Face f : faces.face) faces.impedance.push_back(1 + 0.01 * f.elem.value);
   for (size_t n = 0; n < s.m.size(); ++n)
     s.m[NodeId(int64_t(n))] = 1e-6 * double(1 + n % 7), s.v[NodeId(int64_t(n))] = {0.1 * double(n % 13), 0.3, 1};
   std::vector<Field<Vec3, NodeId>> f;
@@ -127,14 +131,12 @@ TEST(Radiation, ActsAmongTheGivenLoads) {
   Loads loads(scene.mesh, {});
   loads.radiation.emplace();
   loads.radiation->begin(scene.mesh, scene.s, scene.faces, 0.3);
-  std::vector<Face> faces;
-  for (const RadiatingFace& face : scene.faces) faces.push_back(face.face);
-  const std::vector<Vec3> given(faces.size(), {8, 0, 0});
-  loads.replace_given(scene.mesh, faces, given, scene.s);
+  const std::vector<Vec3> given(scene.faces.size(), {8, 0, 0});
+  loads.replace_given(scene.mesh, scene.faces.face, given, scene.s);
   EXPECT_NEAR(sum_of(scene.s.f).x, 4 * (8 - 2), 1e-12);
   EXPECT_NEAR(loads.power(scene.s), 4 * (8 - 2) * 3, 1e-11);
   loads.radiation.reset();  // what it did is taken back
-  loads.replace_given(scene.mesh, faces, given, scene.s);
+  loads.replace_given(scene.mesh, scene.faces.face, given, scene.s);
   EXPECT_NEAR(sum_of(scene.s.f).x, 4 * 8, 1e-12);
 }
 
