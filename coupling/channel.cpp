@@ -15,6 +15,7 @@
 #include "common/app/guarded.h"
 #include "common/app/log.h"
 #include "common/parallel/watchdog.h"
+#include "coupling/large_pages.h"
 #include "coupling/messages.h"
 #include "coupling/notice.h"
 #include "coupling/polite.h"
@@ -62,6 +63,7 @@ struct Channel::State : std::enable_shared_from_this<Channel::State> {
   bool rung = false;                  // since the last of them
   std::unique_ptr<StandIn> stand_in;  // then there is no inter
   std::unique_ptr<Bell> bell;         // with inter
+  LargePages large_pages;
   std::unique_ptr<Lifeline> line;
   std::optional<Patience> cut;  // since when the line is
 
@@ -279,6 +281,7 @@ void Channel::send(int tag, const void* data, size_t bytes) {
       fail(fault->code, fault->text);
     return;
   }
+  state_->large_pages.use(tag, data, bytes);
   MPI_Request request;
   check_mpi(MPI_Isend(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, &request), "MPI_Isend");
   state_->started.push_back(request);
@@ -365,6 +368,7 @@ void Channel::receive(int tag, const char* message, void* data, size_t bytes) {
     stand_in->drop(message);
     return;
   }
+  state_->large_pages.use(tag, data, bytes);
   check_mpi(MPI_Recv(data, int(bytes), MPI_BYTE, 0, tag, state_->inter, MPI_STATUS_IGNORE), "MPI_Recv");
 }
 
