@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cfd/eos/library.h"
+#include "common/app/log.h"
 
 namespace bw::cfd {
 namespace {
@@ -38,6 +39,7 @@ void MaterialCase::resolve(Keys& k) {
 void FluidCase::describe(Keys& k) {
   std::vector<int> cells(grid.cells.begin(), grid.cells.end());
   k.optional("threads", threads, "threads of the fluid program; 0: what OMP_NUM_THREADS or the machine gives");
+  k.expect(threads >= 0, "threads", "a number of threads, or 0");
   std::string geometry = "planar";
   k.choice("geometry", geometry, {"planar", "cylindrical", "spherical"},
            "planar: a box; cylindrical, spherical: a 1-D run along the radius, which is x, of a cylinder of 1 m length or a whole sphere");
@@ -147,6 +149,22 @@ void FluidCase::check_afterburn() const {
     throw InputError(fmt::format("{}: expected fluid.afterburn.energy: the heat of combustion of \"{}\" is not in the library", afterburn->place, m.name));
 }
 
+void FluidCase::check_inflow() const {
+  static constexpr const char* names[6] = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"};
+  for (const InflowCase& i : inflow) {
+    const size_t side = size_t(std::find(std::begin(names), std::end(names), i.side) - std::begin(names));
+    const std::string& kind = boundary.side[side];
+    const double in = (side % 2 ? -1 : 1) * i.velocity[int(side / 2)];
+    if (kind == "far_field") continue;
+    if (in < 0) throw InputError(fmt::format("{}: expected a velocity into the domain at {}, whose boundary is \"{}\"", i.place_velocity, i.side, kind));
+    if (kind != "inflow" || i.unburnt) continue;
+    const double c = std::visit([&](const auto& e) { return sound_speed(e, i.density, i.pressure); }, *material[size_t(material_index(i.material, i.place))].eos);
+    if (in < c)
+      warn("{}: {:g} m/s into the domain is slower than sound there, {:g} m/s: waves that come back are not let out by boundary = \"inflow\", which is for "
+           "supersonic flow; subsonic_inflow and far_field let them out", i.place_velocity, in, c);
+  }
+}
+
 void FluidCase::check_cut_cells() const {
   const auto fail = [&](const std::string& expected) {
     throw InputError(fmt::format("{}: expected {} beside treatment = \"cut_cell\"", walls.place, expected));
@@ -174,10 +192,10 @@ void FluidCase::check(Keys& k) const {
       throw InputError(fmt::format("{}: expected a material with a JWL equation of state", s.place));
     const double covolume = std::visit([](const auto& e) { return e.covolume(); }, eos);
     if (!(s.density * covolume < 1))
-      throw InputError(fmt::format("{}: expected a density below 1/covolume, {:g} kg/m^3", s.place, 1 / covolume));
+      throw InputError(fmt::format("{}: expected a density below 1/covolume, {:g} kg/m^3, got {:g}", s.place_density, 1 / covolume, s.density));
     const double least = std::holds_alternative<StiffenedGas>(eos) ? -std::get<StiffenedGas>(eos).p_inf : 0;
     if (!(s.pressure > least))
-      throw InputError(fmt::format("{}: expected a pressure above {:g} Pa", s.place, least));
+      throw InputError(fmt::format("{}: expected a pressure above {:g} Pa, got {:g}", s.place_pressure, least, s.pressure));
   };
   for (const auto& r : region) check_state(r);
   for (const auto& i : inflow) check_state(i);
@@ -188,6 +206,7 @@ void FluidCase::check(Keys& k) const {
     if ((kind == "inflow" || kind == "subsonic_inflow" || kind == "far_field") != (states == 1))
       k.fail("boundary", fmt::format("one [[fluid.inflow]] for each side that is inflow, subsonic_inflow or far_field, and for no other: see {}", names[s]));
   }
+  check_inflow();
   if (burn.size() > 1) k.fail("burn", "at most one [[fluid.burn]]; it may have several points");
   for (const auto& b : burn) {
     const int m = material_index(b.material, b.place);
@@ -217,20 +236,21 @@ void FluidCase::check(Keys& k) const {
   };
   for (const auto& g : gauge)
     if (!inside(g.position)) throw InputError(fmt::format("{}: expected a point inside the domain", g.place));
-  for (const auto* named : {"gauge", "plane"}) {
+  const auto named_apart = [](const auto& list) {
     std::set<std::string> names;
-    const auto add = [&](const auto& list) {
-      for (const auto& item : list)
-        if (!names.insert(item.name).second) throw InputError(fmt::format("{}: expected a name of its own, there are two \"{}\"", item.place, item.name));
-    };
-    named[0] == 'g' ? add(gauge) : add(plane);
-  }
+    for (const auto& item : list)
+      if (!names.insert(item.name).second) throw InputError(fmt::format("{}: expected a name of its own, there are two \"{}\"", item.place, item.name));
+  };
+  named_apart(gauge), named_apart(plane), named_apart(line);
   std::set<std::string> moved;
   for (const auto& b : body)
     if (const auto* free = std::get_if<FreeMotion>(&b.motion); free && (!moved.insert(b.name).second || b.name.find('/') != std::string::npos))
       throw InputError(fmt::format("{}: expected a body with a name of its own without /, not \"{}\": it names its file", free->place, b.name));
   for (const auto& l : line)
     if (!inside(l.from) || !inside(l.to)) throw InputError(fmt::format("{}: expected a line inside the domain", l.place));
+  for (int d = 0; fields && d < 3; ++d)
+    if (!(fields->lower[d] <= fields->upper[d] && fields->lower[d] <= grid.upper[d] && fields->upper[d] >= grid.lower[d]))
+      throw InputError(fmt::format("{}: expected a box of which a part is inside the domain, lower below upper", fields->place));
 }
 
 Case read_case(const CommandLine& line) {

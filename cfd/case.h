@@ -26,7 +26,7 @@ struct StateCase {
   double density = 0, pressure = 0;
   Vec3 velocity;
   bool unburnt = false;
-  std::string place;
+  std::string place, place_density, place_pressure, place_velocity;
   template <class K>
   void describe(K& k) {
     k.required("material", material, "name of a [[fluid.material]]");
@@ -38,7 +38,8 @@ struct StateCase {
     k.expect(unburnt || density > 0, "density", "a positive density");
     k.required("pressure", pressure, dim::pressure, "absolute pressure");
     k.optional("velocity", velocity, dim::velocity, "velocity");
-    place = k.where("material");
+    place = k.where("material"), place_density = k.where(unburnt ? "material" : "density"), place_pressure = k.where("pressure");
+    place_velocity = k.where("velocity");
   }
 };
 
@@ -221,17 +222,20 @@ struct LineCase {
     k.required("name", name, "names its file, fluid_line_<name>.csv");
     k.required("from", from, dim::length, "one end");
     k.required("to", to, dim::length, "the other end; a row for each cell that the line passes through");
-    place = k.where("from");
+    k.expect(norm(to - from) > 0, "to", "a point apart from the other end");
+    place = k.where("name");
   }
 };
 
 /// Field files may be restricted to the blocks that touch a box: slices of large grids.
 struct FieldsCase {
   Vec3 lower{-1e300, -1e300, -1e300}, upper{1e300, 1e300, 1e300};
+  std::string place;
   template <class K>
   void describe(K& k) {
     k.required("lower", lower, dim::length, "lower corner of the box");
     k.required("upper", upper, dim::length, "upper corner of the box; blocks of cells that it touches are written");
+    place = k.where("lower");
   }
 };
 
@@ -323,6 +327,7 @@ struct FluidCase {
  private:
   void use_radius(Keys& k, Geometry geometry);
   void check_radial(Keys& k) const;
+  void check_inflow() const;
   void use_levels(Keys& k);
   void check_afterburn() const;
   void check_cut_cells() const;

@@ -142,6 +142,7 @@ struct SolidCase {
   template <class K>
   void describe(K& k) {
     k.optional("threads", threads, "threads of csd; 0: OMP_NUM_THREADS or what the machine gives");
+    k.expect(threads >= 0, "threads", "a number of threads, or 0");
     k.optional("renumber", renumber,
                "number elements and nodes along a space-filling curve (faster; results differ by round-off)");
     k.optional("skip_resting", skip_resting, "pass over elements that no wave has reached (faster; the same results)");

@@ -141,6 +141,9 @@ struct FreeMotion {
     k.expect(
         inertia.empty() || (inertia.size() == 3 && inertia[0] > 0 && inertia[1] > 0 && inertia[2] > 0 && density == 0),
         "inertia", "three positive moments, beside a mass");
+    const auto sum = [&](size_t a, size_t b) { return (1 + 1e-9) * (inertia[a] + inertia[b]); };
+    k.expect(inertia.size() != 3 || (inertia[0] <= sum(1, 2) && inertia[1] <= sum(2, 0) && inertia[2] <= sum(0, 1)),
+             "inertia", "moments of which none is above the sum of the others");
     for (int d = 0; d < 3; ++d) {
       k.expect(free[size_t(d)] || velocity[d] == 0, "velocity", "0 in directions in which the body doesn't move");
       k.expect(free[size_t(3 + d)] || spin[d] == 0, "spin", "0 about axes about which the body doesn't turn");

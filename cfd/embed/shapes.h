@@ -88,6 +88,8 @@ struct PlaneShape {
     k.optional("along", along, dim::none, "direction of the first edge; absent: any");
     k.expect(norm(normal) > 0, "normal", "a direction");
     k.expect(size.empty() || (size.size() == 2 && size[0] > 0 && size[1] > 0), "size", "two positive lengths");
+    k.expect(norm(along) == 0 || norm(cross(along, normal)) > 1e-6 * norm(along) * norm(normal), "along",
+             "a direction across the normal");
   }
   Facets facets(const ShapeSetting& s) const;
 };

@@ -76,8 +76,14 @@ std::string DocumentNode::shown() const {
   switch (kind) {
     case Kind::table:
       return "a table";
-    case Kind::list:
-      return fmt::format("a list of {}", items.size());
+    case Kind::list: {
+      const auto plain = [](const DocumentNode& i) { return i.kind != Kind::table && i.kind != Kind::list; };
+      if (items.empty() || items.size() > 6 || !std::all_of(items.begin(), items.end(), plain))
+        return fmt::format("a list of {}", items.size());
+      std::string all;
+      for (const DocumentNode& i : items) all += (all.empty() ? "[" : ", ") + i.shown();
+      return all + "]";
+    }
     case Kind::text:
       return text.size() <= 60 ? fmt::format("\"{}\"", text) : fmt::format("\"{}...\"", text.substr(0, 60));
     case Kind::integer:
