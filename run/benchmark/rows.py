@@ -333,21 +333,35 @@ def exchange_200k_ms():
             row("exchange_200k_geometry_ms", values["geometry_ms"], "ms", 1, 2)]
 
 
-def exchange_share_weapon():
-    """The weapon at demo size to 60 us, over the wall time: messages (each window as dear as one with new connectivity, or as the run's own sends if
-    they took longer), with the surface, forces and books of the interface"""
-    text = (ROOT / "run" / "cases" / "weapon" / "case.toml").read_text().replace('"run/out/weapon"', '"out"')
-    done = run("bench_weapon", text, words=("--end", "60 us"))
-    solid_timers, fluid_timers = (fields.summary(done.directory, name)["timers"] for name in ("solid", "fluid"))
-    windows = len(fields.history(done.directory / "coupling_history.csv")["window"])
+def exchange_share(size, end, with_start):
+    """Seconds of the weapon's run to `end`, with or without its start up to the fluid's first answer; of them those of messages (each window as dear as
+    one with new connectivity, or as the run's own sends if they took longer) and of surface, forces and books of the interface; faces"""
+    text = (ROOT / "run" / "cases" / "weapon" / f"{size}.toml").read_text()
+    done = run(f"bench_weapon_{size}", re.sub(r'"run/out/weapon\w*"', '"out"', text), words=("--end", end))
+    summary = fields.summary(done.directory, "solid")
+    timers, fluid_timers = summary["timers"], fields.summary(done.directory, "fluid")["timers"]
+    waited = fields.history(done.directory / "coupling_history.csv")["waited"]
     faces = int(re.search(r"faces +(\d+) at the end", done.output).group(1))
-    apply = solid_timers["surface"]["seconds"] + solid_timers["ledger"]["seconds"]
-    messages = 1e-3 * exchange(faces)["full_ms"] * windows
-    sending = solid_timers["send surface"]["seconds"] + fluid_timers["send loads"]["seconds"]
-    return [row("exchange_share_weapon", (apply + max(messages, sending)) / done.seconds, f"of the run, {faces} faces", CORES, 2),
-            row("exchange_share_messages", max(messages, sending) / done.seconds, "of the run", CORES, 2)]
+    seconds = done.seconds if with_start else summary["wall_seconds"] - timers["handshake"]["seconds"] - waited[0]
+    sending = timers["send surface"]["seconds"] + fluid_timers["send loads"]["seconds"]
+    messages = max(1e-3 * exchange(faces)["full_ms"] * len(waited), sending)
+    return seconds, messages, timers["surface"]["seconds"] + timers["ledger"]["seconds"], faces
+
+
+def exchange_share_weapon():
+    """The weapon at demo size to 60 us: share of messages, surface, forces and books of the interface in the wall time"""
+    seconds, messages, apply, faces = exchange_share("case", "60 us", with_start=True)
+    return [row("exchange_share_weapon", (messages + apply) / seconds, f"of the run, {faces} faces", CORES, 2),
+            row("exchange_share_messages", messages / seconds, "of the run", CORES, 2)]
+
+
+def exchange_share_paper():
+    """The same at the paper's size to 8 us, without its start"""
+    seconds, messages, apply, faces = exchange_share("paper", "8 us", with_start=False)
+    return [row("exchange_share_paper", (messages + apply) / seconds, f"of the run, {faces} faces", CORES, 2),
+            row("exchange_share_paper_messages", messages / seconds, "of the run", CORES, 2)]
 
 
 GROUPS = {"solid": [taylor_j2, taylor_jc, taylor_seconds, block_elastic, block_j2, ranks], "fluid": [air_64, air_128, jwl_air_64, three_64, quiescent_share, amr_overhead],
-          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_after_nap_ms, exchange_200k_ms, exchange_share_weapon], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
+          "wall": [moving_sphere_overhead, geometry_share_200k], "coupling": [exchange_20k_ms, exchange_after_nap_ms, exchange_200k_ms, exchange_share_weapon, exchange_share_paper], "precision": precision.MAKERS + precision_flow.FLUID + precision_flow.WALL}
 STUDIES = {"solid": precision.MAKERS, "fluid": precision_flow.FLUID, "wall": precision_flow.WALL}  # of precision, by room
