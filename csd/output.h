@@ -54,6 +54,7 @@ class Output {
   Checkerboard raw_;
   CheckerboardWatch checkerboard_;
   double mass_ = 0, collapsed_ = 0;
+  double pieces_ = 1;  // that nothing can break
   Vec3 momentum_;
   std::string last_dump_;
   double t_complete_ = -1, t_row_ = -1, t_fields_ = -1;

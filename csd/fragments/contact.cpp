@@ -201,6 +201,7 @@ std::vector<int32_t> sort_by_island(std::vector<Meeting>& meetings, int32_t node
 }  // namespace
 
 void Contact::act(Model& m, double dt) {
+  pushed_.clear();
   renew(m, dt);
   if (near_lips_.count() + near_bodies_.count() == 0) return;
   std::vector<Meeting> meetings = find_meetings(m, dt);
@@ -219,9 +220,12 @@ void Contact::act(Model& m, double dt) {
   for (const Meeting& p : meetings) {
     if (p.impulse == Vec3{}) continue;
     ++impulses_;
+    pushed_.insert(pushed_.end(), p.nodes.begin() + p.first, p.nodes.begin() + p.last);
     for (RigidBody* body : p.body)
       if (body) body->move_nodes(m.state.v);
   }
+  std::sort(pushed_.begin(), pushed_.end());
+  pushed_.erase(std::unique(pushed_.begin(), pushed_.end()), pushed_.end());
 }
 
 /// Brings up to date what may meet what.

@@ -51,6 +51,9 @@ class Contact {
   void act(Model& m, double dt);
   double work() const { return work_; }           ///< J, since the start; negative but for moving supports
   int64_t impulses() const { return impulses_; }  ///< given so far
+  /// Nodes of deformable bodies that the last step's impulses moved, each once. Forces of contact come with the step
+  /// after a time: until then velocities at that time lack half a step of what holds these nodes.
+  const std::vector<NodeId>& pushed() const { return pushed_; }
 
   struct Pair {
     NodeId node;
@@ -101,6 +104,7 @@ class Contact {
   Nearby near_lips_, near_bodies_;
   Field<std::array<float, 6>, ElemId> depths_;  // m, of each side; found at the first search
   std::vector<NodeId> surface_;                 // all nodes of the boundary, at the last search
+  std::vector<NodeId> pushed_;                  // by the last act()
   std::vector<int32_t> root_;                   // work space: [node, body]
   size_t lips_ = 0;                             // of the boundary that are known
   int64_t version_ = -1, searched_ = -1;        // of the topology: known; that near_bodies_ is of

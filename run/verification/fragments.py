@@ -8,6 +8,7 @@ import numpy as np
 from . import reference
 from .case import BUILD, ROOT, at_least, at_most, case, close, near, output, run, unit_rows
 from .solid import COPPER, fields
+from .solid_waves import elastic, node
 
 sys.path.insert(0, str(ROOT / "run"))
 import fragments as fragment_statistics  # noqa: E402
@@ -79,6 +80,18 @@ def contact():
     yield from unit_rows("csd", "Contact*.*", {"left_of_the_speed_40": 0.02, "left_of_the_speed_80": 0.01, "node_depth_over_side": 0.005,
                                                "edge_depth_over_side": 0.15, "energy_rise": 1e-12, "momentum_off_the_walls_impulse": 1e-13,
                                                "residual_over_kinetic": 5e-3, "rigid_residual_over_kinetic": 5e-3, "depth_with": 1e-4})
+    bar = '[[solid.body]]\nname = "{}"\nmesh = {{kind = "box", lower = [{}, 0, 0], upper = [{}, 0.004, 0.004], cells = [{}, 2, 2]}}\nvelocity = [{}, 0, 0]\n{}'
+    for name, density, young in (("a light bar", 1.0, 1e6), ("an equal bar", 7800.0, 200e9), ("a heavy bar", 2e4, 4e11)):
+        text = ('[time]\nend = "6 us"\n' + output("0 s", "0 s") + "[solid.contact]\n[solid.viscosity]\nlinear = 0.06\n"
+                + bar.format("left", 0.0, 0.05, 50, 10.0, elastic(7800.0, 200e9, 0.0)) + bar.format("right", 0.050001, 0.07, 20, 0.0, elastic(density, young, 0.0))
+                + node("left", (0.05, 0.002, 0.002)) + node("right", (0.050001, 0.002, 0.002)))
+        result = run(f"CT_{name}", text, only="solid")
+        table = fields.history(result.directory / "solid_history.csv")
+        late = table["t"] > 3e-6
+        expected = 10.0 / (1 + (density * young / (7800.0 * 200e9)) ** 0.5)  # by the impedances
+        for side in ("left", "right"):
+            yield close(f"a steel bar hits {name}: speed of the touching face, {side} [m/s]", table[f"{side} vx"][late].mean(), expected, 0.02, result.seconds)
+        yield near(f"a steel bar hits {name}: pieces told without [solid.fracture]", table["fragments"][-1], 2, 0)
 
 
 def mott_sample(mu, number, seed):
