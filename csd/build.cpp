@@ -16,8 +16,6 @@ Mesh build_mesh(const SolidCase& cs) {
   std::vector<Mesh> parts;
   std::vector<std::string> names;
   for (const BodyCase& body : cs.bodies) {
-    if (std::find(names.begin(), names.end(), body.name) != names.end())
-      throw InputError(fmt::format("{}: two bodies have the name \"{}\"", body.mesh.place, body.name));
     MeshQuality quality;
     parts.push_back(make_mesh(body.mesh, quality));
     names.push_back(body.name);
@@ -41,8 +39,25 @@ void set_initial_velocities(const SolidCase& cs, const Mesh& mesh, State& s) {
       s.v[n] = region.velocity + (region.motion ? region.motion->velocity(s.x[n]) : Vec3{});
 }
 
+/// InputError if nothing flows though the criterion, or the pieces' strength, asks how it does.
+void check_flow(const SolidCase& cs) {
+  if (std::any_of(cs.bodies.begin(), cs.bodies.end(),
+                  [](const BodyCase& body) { return std::holds_alternative<J2Case>(body.material.choice); }))
+    return;
+  const auto& criterion = cs.fracture->criterion.model;
+  const auto& pieces = cs.fracture->pieces;
+  if (std::holds_alternative<EqpsLimit>(criterion) || std::holds_alternative<JohnsonCookDamage>(criterion))
+    throw InputError(
+        fmt::format("{}: expected a body that flows (material kind \"j2\"): elastic ones have no plastic "
+                    "strain and never break by it",
+                    cs.fracture->place));
+  if (const auto* mott = pieces ? std::get_if<Mott>(&pieces->law) : nullptr; mott && mott->strength == 0)
+    throw InputError(fmt::format("{}: expected `strength`, as no body has a flow stress", pieces->place));
+}
+
 /// [body] InputError if the criterion needs what a body that flows doesn't tell.
 std::vector<FailureData> failure_data(const SolidCase& cs) {
+  check_flow(cs);
   std::vector<FailureData> data;
   for (const BodyCase& body : cs.bodies) {
     data.push_back(body.material.failure);
@@ -59,6 +74,27 @@ std::vector<FailureData> failure_data(const SolidCase& cs) {
         cs.fracture->criterion.model);
   }
   return data;
+}
+
+/// InputError where nodes that a wall stops start behind it: it would put them, at once, where others are.
+void check_walls(const std::vector<ConditionKind>& conditions, const Mesh& mesh) {
+  for (const auto& condition : conditions) {
+    const auto* wall = std::get_if<RigidWall>(&condition);
+    if (!wall) continue;
+    double deepest = 0, farthest = 0;
+    Vec3 at;
+    for (int32_t i = 0; i < mesh.node_count(); ++i) {
+      if (!wall->stops(NodeId(i))) continue;
+      const double gap = dot(mesh.X[NodeId(i)] - wall->point, wall->normal);
+      farthest = std::max(farthest, norm(mesh.X[NodeId(i)] - wall->point));
+      if (gap < deepest) deepest = gap, at = mesh.X[NodeId(i)];
+    }
+    if (deepest < -1e-6 * farthest)
+      throw InputError(
+          fmt::format("{}: the node at ({:.6g}, {:.6g}, {:.6g}) m starts {:.3g} m behind the wall; another "
+                      "`point` or `normal`, or `nodes` without it",
+                      wall->place, at.x, at.y, at.z, -deepest));
+  }
 }
 
 /// Local steps know nothing of what ties nodes of different steps to each other.
@@ -104,6 +140,8 @@ Physics build_physics(const SolidCase& cs, const Mesh& mesh, const Comm& comm, S
   }
   for (const ConditionCase& condition : cs.conditions) ph.conditions.push_back(condition.kind);
   for (auto& condition : ph.conditions) std::visit([&](auto& c) { c.select(mesh); }, condition);
+  check_walls(ph.conditions, mesh);
+  if (!cs.wet.faces.empty()) face_sets(mesh, cs.wet.faces, cs.wet.place);
   if (cs.relaxation) ph.relaxation.emplace(*cs.relaxation, s.x.size());
   if (cs.mass_scaling) ph.mass_scaling.emplace(*cs.mass_scaling, s);
   if (cs.fracture) ph.cracks.emplace(*cs.fracture, mesh, s.t, failure_data(cs));

@@ -2,6 +2,7 @@
 // The case file as csd sees it: [time], [output], [solid], [coupling]. Only case.cpp reads input.
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,14 @@ struct WetCase {
   std::string place;
 };
 
+/// InputError if two of the list have one name.
+template <class K, class Named>
+void expect_own_names(K& k, const char* key, const std::vector<Named>& list) {
+  std::set<std::string> names;
+  for (const Named& item : list)
+    k.expect(names.insert(item.name).second, key, "a name of its own for each (\"" + item.name + "\" is there twice)");
+}
+
 /// [solid]
 struct SolidCase {
   int threads = 0;
@@ -154,6 +163,7 @@ struct SolidCase {
              "precision in which the points' plastic strains are stored; single: half the memory, rounded by 6e-8");
     k.tables("body", bodies, "a body: mesh, material, initial motion");
     k.expect(!bodies.empty(), "body", "at least one [[solid.body]]");
+    expect_own_names(k, "body", bodies);
     k.table("filter", filter, "pressure filter");
     k.table("viscosity", viscosity, "bulk viscosity; off unless given");
     k.table("energy", energy, "what happens when energy goes missing");
@@ -168,6 +178,7 @@ struct SolidCase {
     k.table("mass_scaling", mass_scaling, "more mass for elements with short steps; absent: none");
     k.expect(!(rigid && relaxation), "rigid", "no [solid.static] beside it: a rigid body has no static solution");
     k.tables("probe", probes, "columns of solid_history.csv");
+    expect_own_names(k, "probe", probes);
     k.table("wet", wet, "the surface that touches the fluid");
   }
 };

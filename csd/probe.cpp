@@ -6,11 +6,29 @@
 #include <algorithm>
 
 #include "common/app/error.h"
+#include "common/app/log.h"
 #include "csd/element/lanes.h"
 #include "csd/element/results.h"
+#include "csd/mesh/hex.h"
 #include "csd/physics.h"
 
 namespace bw::csd {
+
+namespace {
+
+/// A place in the wrong unit finds a node too: says so where it lies further off than elements are long.
+void warn_if_far(const Mesh& mesh, const char* what, const Vec3& position, double distance, ElemId nearest) {
+  double longest = 0;
+  for (const auto& edge : hex_edge) {
+    const auto& h = mesh.hex[nearest];
+    longest = std::max(longest, norm(mesh.X[h[size_t(edge[1])]] - mesh.X[h[size_t(edge[0])]]));
+  }
+  if (distance > longest)
+    warn("a probe at ({:.6g}, {:.6g}, {:.6g}) m: the nearest {} is {:.3g} m away", position.x, position.y, position.z,
+         what, distance);
+}
+
+}  // namespace
 
 void NodeProbe::select(const Mesh& mesh, const Physics&) {
   double nearest = 1e300;
@@ -20,6 +38,9 @@ void NodeProbe::select(const Mesh& mesh, const Physics&) {
     if (d < nearest || (d == nearest && mesh.node_gid[NodeId(n)] < mesh.node_gid[node_]))
       nearest = d, node_ = NodeId(n);
   }
+  const auto elem = std::find_if(mesh.hex.begin(), mesh.hex.end(),
+                                 [&](const auto& h) { return std::find(h.begin(), h.end(), node_) != h.end(); });
+  if (elem != mesh.hex.end()) warn_if_far(mesh, "node", position, nearest, ElemId(elem - mesh.hex.begin()));
 }
 void NodeProbe::values(const Mesh&, const State& s, const Physics&, std::vector<double>& out) {
   const Vec3 &x = s.x[node_], &v = s.v[node_];
@@ -36,6 +57,7 @@ void ElementProbe::select(const Mesh& mesh, const Physics& ph) {
       nearest = d, elem_ = ElemId(e);
   }
   heats_ = heats(ph.elements, mesh.body[elem_]);
+  warn_if_far(mesh, "element", position, nearest, elem_);
 }
 void ElementProbe::values(const Mesh&, const State& s, const Physics& ph, std::vector<double>& out) {
   const SlotId slot = ph.elements.blocks.slot[elem_];

@@ -108,6 +108,8 @@ struct ProbeCase {
   template <class K>
   void describe(K& k) {
     k.required("name", name, "columns are called \"name quantity\"");
+    k.expect(!name.empty() && name.find_first_of(",\"\r\n") == std::string::npos, "name",
+             "a name without commas, quotes and line ends");
     k.pick("kind", kind, "probe", true);
   }
 };

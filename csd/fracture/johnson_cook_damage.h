@@ -28,6 +28,7 @@ struct JohnsonCookDamage {
     k.optional("reference_temperature", T_room, dim::temperature, "where T* of the material's `damage` is 0");
     k.optional("in_compression", in_compression, "damage below a stress triaxiality of -1/3 too");
     k.expect(least_strain > 0, "least_strain", "a positive strain");
+    k.expect(T_room >= 0, "reference_temperature", "a temperature >= 0 K");
     k.expect(strain_step >= 0, "strain_step", "a strain >= 0");
   }
   bool is_known(const FailureData& material) const { return material.damage.has_value(); }

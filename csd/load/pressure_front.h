@@ -39,6 +39,7 @@ struct PressureFront {
     k.expect(decay >= 0, "decay", "a number per length >= 0");
     k.expect(k.has("decay") != !behind.empty(), "decay", "either `decay` or the table `behind`, `factors`");
     k.expect(behind.size() == factors.size(), "factors", "as many values as `behind`");
+    k.expect(behind.empty() || behind[0] == 0, "behind", "0 as the first distance");
     k.expect(std::is_sorted(behind.begin(), behind.end(), std::less_equal<>()), "behind", "rising distances");
     k.expect(speed > 0, "speed", "a positive velocity");
     k.expect(norm(axis) > 0, "axis", "a direction other than (0, 0, 0)");

@@ -52,6 +52,7 @@ const std::vector<Face>& face_set(const Mesh& mesh, const std::string& name, con
   return find(mesh.face_sets, name, place, "face");
 }
 std::vector<Face> face_sets(const Mesh& mesh, const std::vector<std::string>& names, const std::string& place) {
+  if (names.empty()) throw InputError(fmt::format("{}: expected the name of a face set at least", place));
   std::vector<Face> faces;
   std::set<std::pair<int, int>> seen;
   for (const std::string& name : names)

@@ -137,6 +137,7 @@ struct JohnsonCook {
     k.expect(C >= 0, "rate_coefficient", "a number >= 0");
     k.expect(rate_0 > 0, "reference_rate", "a positive rate");
     k.expect(m > 0, "softening_exponent", "a positive number");
+    k.expect(T_room >= 0, "reference_temperature", "a temperature >= 0 K");
     k.expect(T_melt > T_room, "melting_temperature", "a temperature above reference_temperature");
   }
 

@@ -24,6 +24,7 @@ struct Block {
     k.required("cells", cells, "elements along the edges from the first corner to the second, fourth, fifth");
     k.expect(corners.size() == 8, "corners", "eight points");
     k.expect(cells.size() == 3 && cells[0] > 0 && cells[1] > 0 && cells[2] > 0, "cells", "three counts of at least 1");
+    k.expect(double(cells[0]) * cells[1] * cells[2] <= most_elements, "cells", few_enough);
     k.optional("split", is_split, "each hex through six tetrahedra into 24 hexes");
   }
   Mesh make() const;
@@ -47,6 +48,7 @@ struct Ball {
     k.expect(inner_radius >= 0 && inner_radius < radius, "inner_radius", "a length from 0 to less than the radius");
     k.expect(across >= 1, "across", "at least 1");
     k.expect(through >= 1, "through", "at least 1");
+    k.expect(3.0 * across * across * through <= most_elements, "across", few_enough);
   }
   Mesh make() const;
 };

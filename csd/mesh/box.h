@@ -23,6 +23,7 @@ struct Box {
     k.required("cells", cells, "elements along x, y, z");
     k.expect(cells.size() == 3 && cells[0] > 0 && cells[1] > 0 && cells[2] > 0, "cells", "three counts of at least 1");
     k.optional("grading", grading, dim::none, "length of the last element over the first, along x, y, z");
+    k.expect(double(cells[0]) * cells[1] * cells[2] <= most_elements, "cells", few_enough);
     k.expect(grading.x > 0 && grading.y > 0 && grading.z > 0, "grading", "three positive ratios");
     k.optional("split", is_split, "each hex through six tetrahedra into 24 hexes");
   }

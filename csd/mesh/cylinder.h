@@ -51,6 +51,7 @@ struct Cylinder : RoundAlongAxis {
     k.required("across", across, "elements across the radius, at least 2");
     k.expect(across >= 2, "across", "at least 2");
     describe_rest(k);
+    k.expect(3.0 * across * across * along <= most_elements, "across", few_enough);
   }
   Mesh make() const;
 };
@@ -74,6 +75,7 @@ struct Tube : RoundAlongAxis {
     describe_rest(k);
     k.expect(around >= 4 && (sector == "full" || around % 4 == 0), "around",
              "at least 4; a multiple of 4 for a sector");
+    k.expect(0.25 * around * through * along <= most_elements, "around", few_enough);
   }
   Mesh make() const;
 };

@@ -30,11 +30,8 @@ void add_region(Mesh& mesh, const RegionSet& set, const std::vector<Face>& bound
     return p.x >= set.lower.x && p.y >= set.lower.y && p.z >= set.lower.z && p.x <= set.upper.x && p.y <= set.upper.y &&
            p.z <= set.upper.z;
   };
-  mesh.node_sets.erase(set.name);
-  mesh.face_sets.erase(set.name);
   add_set(mesh, boundary, set.name, is_inside);
   auto& elems = mesh.elem_sets[set.name];
-  elems.clear();
   for (int32_t e = 0; e < mesh.elem_count(); ++e) {
     const auto& h = mesh.hex[ElemId(e)];
     if (std::all_of(h.begin(), h.end(), is_inside)) elems.push_back(ElemId(e));
@@ -108,10 +105,13 @@ Mesh make_mesh(const MeshInput& input, MeshQuality& quality) {
   }
   if (!input.sets.empty()) {
     const auto boundary = boundary_faces(mesh);
-    for (const RegionSet& set : input.sets) add_region(mesh, set, boundary);
+    for (const RegionSet& set : input.sets) {
+      if (mesh.node_sets.contains(set.name) || mesh.face_sets.contains(set.name) || mesh.elem_sets.contains(set.name))
+        throw InputError(set.place + ": the mesh has a set '" + set.name + "' already");
+      add_region(mesh, set, boundary);
+      if (mesh.node_sets[set.name].empty()) throw InputError(set.place + ": set '" + set.name + "' holds no node");
+    }
   }
-  for (const RegionSet& set : input.sets)
-    if (mesh.node_sets[set.name].empty()) throw InputError(input.place + ": set '" + set.name + "' holds no node");
   return mesh;
 }
 

@@ -12,13 +12,14 @@ namespace bw::csd {
 
 /// Everything inside a brick of space becomes a set; the boundary faces with all nodes inside too.
 struct RegionSet {
-  std::string name;
+  std::string name, place;
   Vec3 lower{-1e30, -1e30, -1e30}, upper{1e30, 1e30, 1e30};
   template <class K>
   void describe(K& k) {
     k.required("name", name, "name of the set of nodes, elements and boundary faces");
     k.optional("lower", lower, dim::length, "smallest coordinates (after scale, turn and move)");
     k.optional("upper", upper, dim::length, "largest coordinates");
+    if (!k.is_manual()) place = k.where("name");
   }
 };
 

@@ -21,6 +21,10 @@ struct Face {
   friend bool operator==(const Face&, const Face&) = default;
 };
 
+/// Sides of elements have 32-bit numbers.
+inline constexpr double most_elements = 2147483647 / 6;
+inline constexpr const char* few_enough = "fewer than 358 million elements in all";
+
 struct Mesh {
   Field<Vec3, NodeId> X;                           ///< reference position [m]
   Field<std::array<NodeId, 8>, ElemId> hex;        ///< connectivity, changed by cracks only

@@ -57,7 +57,9 @@ std::string read_mesh_text(const std::string& path, const std::string& place) {
   if (!in) throw InputError(fmt::format("{}: mesh file '{}' can't be opened", place, path));
   std::ostringstream all;
   all << in.rdbuf();
-  return std::move(all).str();
+  std::string text = std::move(all).str();
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // mark of UTF-8, of Windows editors
+  return text;
 }
 
 namespace {
