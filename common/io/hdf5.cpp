@@ -2,25 +2,45 @@
 #include "common/io/hdf5.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
 #include "common/io/file.h"
 #include "common/io/hdf5_types.h"
+#include "common/parallel/loop.h"
 
 namespace bw::h5 {
 
 namespace {
 
 constexpr int64_t chunk_items = 131072, compress_above = 16384;
+constexpr int deflate_level = 1;
 
 /// The innermost entry of HDF5's stack of errors: the cause.
 herr_t note_cause(unsigned depth, const H5E_error2_t* entry, void* text) {
   if (depth == 0 && entry->desc) *static_cast<std::string*>(text) = std::string(": ") + entry->desc;
   return 0;
+}
+
+/// A chunk of so many items as HDF5's filters shuffle and deflate would leave it; zeros behind what there is.
+template <Value T>
+std::vector<Bytef> pack_chunk(std::span<const T> there, size_t items) {
+  static_assert(std::endian::native == std::endian::little, "as in the file");
+  std::vector<T> chunk(there.begin(), there.end());
+  chunk.resize(items);
+  const auto* bytes = reinterpret_cast<const Bytef*>(chunk.data());
+  std::vector<Bytef> shuffled(items * sizeof(T)), packed(compressBound(uLong(shuffled.size())));
+  for (size_t b = 0; b < sizeof(T); ++b)
+    for (size_t i = 0; i < items; ++i) shuffled[b * items + i] = bytes[i * sizeof(T) + b];
+  uLongf size = uLongf(packed.size());
+  const bool done = compress2(packed.data(), &size, shuffled.data(), uLong(shuffled.size()), deflate_level) == Z_OK;
+  packed.resize(done ? size : 0);
+  return packed;
 }
 
 Handle access(const std::string& path, const Comm& comm) {
@@ -172,16 +192,31 @@ void Group::write(const std::string& name, std::span<const T> mine, int columns,
   const hsize_t dims[2] = {total, width}, start[2] = {before, 0}, count[2] = {rows, width};
   const Handle space = owned(H5Screate_simple(rank, dims, nullptr), H5Sclose, "sizing " + name);
   const Handle layout = owned(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "layout of " + name);
-  if (packing == Packing::compressed && int64_t(total * width) > compress_above) {
-    const hsize_t chunk[2] = {std::min<hsize_t>(total, std::max<hsize_t>(1, hsize_t(chunk_items) / width)), width};
+  const hsize_t chunk[2] = {std::min<hsize_t>(total, std::max<hsize_t>(1, hsize_t(chunk_items) / width)), width};
+  const bool is_packed = packing == Packing::compressed && int64_t(total * width) > compress_above;
+  if (is_packed) {
     check(H5Pset_chunk(layout.get(), rank, chunk), "chunks of " + name);
     check(H5Pset_shuffle(layout.get()), "shuffle of " + name);
-    check(H5Pset_deflate(layout.get(), 1), "compression of " + name);
+    check(H5Pset_deflate(layout.get(), deflate_level), "compression of " + name);
   }
   const Handle set = owned(
       H5Dcreate2(handle_->get(), name.c_str(), file_type<T>(), space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
       H5Dclose, "creating " + name);
   if (total == 0) return;
+  if (is_packed && shared_->comm.size() == 1) {  // by all threads; the library would do it by one
+    const size_t items = size_t(chunk[0] * width);
+    std::vector<std::vector<Bytef>> chunks((mine.size() + items - 1) / items);
+    parallel_for_dynamic(int64_t(chunks.size()), [&](int64_t c) {
+      const size_t first = size_t(c) * items;
+      chunks[size_t(c)] = pack_chunk(mine.subspan(first, std::min(items, mine.size() - first)), items);
+    });
+    for (size_t c = 0; c < chunks.size(); ++c) {
+      if (chunks[c].empty()) failed(shared_->path, "compressing " + name);
+      const hsize_t at[2] = {c * chunk[0], 0};
+      check(H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at, chunks[c].size(), chunks[c].data()), "writing " + name);
+    }
+    return;
+  }
   const Handle memory = owned(H5Screate_simple(rank, count, nullptr), H5Sclose, "rows of " + name);
   if (rows > 0) {
     check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr), "rows of " + name);
