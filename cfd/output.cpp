@@ -30,7 +30,7 @@ std::vector<History::Column> history_columns(const Case& cs) {
     c.push_back({name, "N s"});
   for (const char* name : {"wall energy", "face work"}) c.push_back({name, "J"});
   c.push_back({"wall mass", "kg"});
-  for (const char* name : {"covered mass", "uncovered mass"}) c.push_back({name, "kg"});
+  for (const char* name : {"covered mass", "uncovered mass", "cleaned mass"}) c.push_back({name, "kg"});
   for (const char* name : {"covered energy", "uncovered energy", "cleaned energy", "floor energy"}) c.push_back({name, "J"});
   for (const char* name : {"swept momentum x", "swept momentum y", "swept momentum z"}) c.push_back({name, "N s"});
   for (const char* name : {"cells covered", "cells fresh", "floors", "scaled", "first_order", "repeated_steps", "active_share"}) c.push_back({name, "1"});
@@ -214,7 +214,7 @@ void Output::write_row(const Model& m, const Books& books) {
   row.push_back(out(Cons::rhoE));
   for (const Vec3& v : {books.wall_impulse, books.face_impulse, books.lip_impulse})
     for (int d = 0; d < 3; ++d) row.push_back(v[d]);
-  for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept_.mass_lost, swept_.mass_made, swept_.energy_lost, swept_.energy_made, b.cleaned[Cons::rhoE], b.floor_energy,
+  for (double v : {books.wall_energy, books.face_work, books.wall_mass, swept_.mass_lost, swept_.mass_made, m.setup.medium.density(b.cleaned), swept_.energy_lost, swept_.energy_made, b.cleaned[Cons::rhoE], b.floor_energy,
                    swept_.momentum.x, swept_.momentum.y, swept_.momentum.z,
                    double(swept_.covered), double(swept_.fresh), double(b.floors), double(b.scaled_cells), double(b.first_order), double(books.repeated), active_share_})
     row.push_back(v);

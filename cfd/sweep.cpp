@@ -87,6 +87,7 @@ void Sweep::select(const State& s, double dt) {
   active_.clear();
   asks_.assign(look_ ? size_t(forest_.local_blocks()) : 0, {});
   const Gather gather(forest_, s, setup_.boundary, setup_.medium);
+  share_kernels(gather);
   for (int b = 0; b < forest_.local_blocks(); ++b) {
     pending_[size_t(b)] = Booked{};
     wall_[size_t(b)] = {};
@@ -118,6 +119,36 @@ void Sweep::select(const State& s, double dt) {
     else
       rest_at_sides(s, b, pending_[size_t(b)]);
   }
+}
+
+void Sweep::share_kernels(const Gather& gather) {
+  const auto& used = forest_.shape().used;
+  if (setup_.medium.count() == 1 || int(used[0]) + used[1] + used[2] < 2) return;
+  const size_t local = size_t(forest_.local_blocks());
+  lone_gas_.resize(local + size_t(forest_.ghost_blocks()));
+  for (size_t b = 0; b < local; ++b) {
+    const int m = gather.material(int(b));
+    lone_gas_[b] = m != 0 && setup_.medium.is_gas[m - 1];
+  }
+  forest_.exchange(1, [&](int b) { return &lone_gas_[size_t(b)]; }, lone_gas_.data() + local);
+}
+
+void Sweep::match_kernels(int block, Patch& patch) const {
+  if (lone_gas_.empty()) return;
+  const BlockShape& s = patch.shape();
+  for (int d = 0; d < 3; ++d)
+    for (const int upper : {0, 1}) {
+      std::array<int, 3> offset{0, 0, 0};
+      offset[size_t(d)] = upper ? 1 : -1;
+      const int beside = s.used[size_t(d)] ? forest_.neighbour(block, offset) : -1;
+      // of faces between levels the finer side's flux is that of both
+      if (beside < 0 || lone_gas_[size_t(beside)]) continue;
+      int first[3] = {0, 0, 0}, last[3] = {s.n[0], s.n[1], s.n[2]};
+      first[d] = upper ? s.n[size_t(d)] : -1, last[d] = first[d] + 1;
+      for (int k = first[2]; k < last[2]; ++k)
+        for (int j = first[1]; j < last[1]; ++j)
+          std::fill_n(patch.row(Prim::shock, k, j) + first[0], last[0] - first[0], no_damping);
+    }
 }
 
 /// A block at rest still leans on the sides of the domain.
@@ -163,6 +194,7 @@ void Sweep::one_block(State& s, int block, bool first_order, Space& space) {
   const int m = patch.material;
   const bool is_gas_block = m != 0 && setup_.medium.is_gas[m - 1];
   patch.shocked = is_gas_block && find_shocks(patch);
+  if (patch.shocked) match_kernels(block, patch);
   if (in.burns) fill_stored_energy(*setup_.burn, t_ + 0.5 * dt_, patch);
   change.book_sides = 0;
   for (int d = 0; d < 3; ++d)

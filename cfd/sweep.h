@@ -105,6 +105,10 @@ class Sweep {
   };
   enum Near : uint8_t { far, near, metal };
   bool is_gas(const Patch& patch) const { return patch.material != 0 && setup_.medium.is_gas[patch.material - 1]; }
+  /// Which blocks take the kernel of one gas, other ranks' too; where some may and others may not.
+  void share_kernels(const Gather& gather);
+  /// No damping (cfd/scheme/carbuncle.h) at faces shared with blocks whose kernel has none: both give one flux.
+  void match_kernels(int block, Patch& patch) const;
   CutScheme& cut_scheme(Space& space) const {
     return is_gas(space.patch) ? *space.cut_gas[space.patch.material - 1] : *space.cut_mixed;
   }
@@ -141,6 +145,7 @@ class Sweep {
   std::vector<std::vector<uint8_t>> marks_;        ///< [local block] bad cells of the last pass
   std::vector<std::vector<uint8_t>> first_order_;  ///< [local block] cells stepped first order
   std::vector<Near> near_;                         ///< [local block]
+  std::vector<uint8_t> lone_gas_;  ///< [local block, then other ranks'] takes the kernel of one gas; empty: all alike
   std::vector<WallExchange> wall_;                 ///< [local block] of this step
   std::vector<std::vector<LinkLoad>> links_;       ///< [local block] of this step; of conservative loads
   std::vector<uint8_t> ghost_marks_;               ///< of other ranks' blocks, when any rank has marks

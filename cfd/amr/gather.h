@@ -34,9 +34,10 @@ class Gather {
   /// The patch's row Prim::order: 0 where the cell or a neighbour through a face is marked, 1 elsewhere. marks(b):
   /// cells of block b (local or ghost), or nullptr if none is marked.
   void fill_order(int block, const std::function<const uint8_t*(int)>& marks, Patch& patch) const;
+  /// 1, 2 ...: the material that a local block and all around it hold alone; 0: several.
+  int material(int block) const;
 
  private:
-  int material(int block) const;
   void open_sides(int block, bool all_rows, Patch& patch) const;
   /// Every row of the patch: convert(U, W) makes Packs of W[n_W] from those of U[n_U]; U comes from variables cons[],
   /// W goes to patch rows prim[].

@@ -119,6 +119,32 @@ pressure = 2e8
 )");
   expect_kept(f, 200);
 }
+/// A shock in gas that passes from blocks where it is alone into blocks with another gas near: one flux for both.
+TEST(Levels, ShockBesideAnotherGasKeepsMassAndEnergy) {
+  Flow f(grid("[64, 16, 1]", "[1, 0.25, 0.015625]") + amr(1, "block = 8\n") + R"([[fluid.material]]
+name = "a"
+eos = {kind = "ideal_gas", gamma = 1.5}
+[[fluid.material]]
+name = "b"
+eos = {kind = "ideal_gas", gamma = 1.4}
+[[fluid.region]]
+shape = {kind = "everywhere"}
+material = "a"
+density = 1
+pressure = 1
+[[fluid.region]]
+shape = {kind = "half_space", point = [0.5, 0, 0], normal = [1, 0, 0]}
+material = "b"
+density = 0.125
+pressure = 0.1
+)");
+  const FluidSums before = f.sums();
+  f.steps(73);
+  const FluidSums after = f.sums();
+  const Booked b = f.books.booked(f.m);
+  for (int q : {int(Cons::arho1), int(Cons::arho2), int(Cons::rhoE)})
+    EXPECT_NEAR((after.U[q] + b.cleaned[q]) / before.U[q], 1, 1e-13);
+}
 
 TEST(Levels, ContactsKeepPressureAndVelocity) {
   Flow f(grid("[32, 16, 16]", "[1, 0.5, 0.5]", periodic_sides) + amr(2, "block = 8\nevery = 2\nfollow_flow = false\n" + fine_ball(2)) + air_and_tnt +
