@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cfd/adapt.h"
@@ -197,8 +198,10 @@ void blend(State& state, int block, size_t cell, const double (&fresh)[Cons::mos
   }
 }
 
+/// False if nothing of the shape is in any cell. Collective.
 template <class Shape>
-void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::most]) {
+bool paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::most]) {
+  std::vector<uint8_t> painted(size_t(m.forest.local_blocks()), 0);
   parallel_for_dynamic(m.forest.local_blocks(), [&](int64_t b) {
     const BlockShape& s = m.forest.shape(int(b));
     const Vec3 lower = m.forest.lower(int(b));
@@ -207,9 +210,10 @@ void paint_shape(Model& m, const Shape& shape, const double (&U)[Cons::most]) {
         for (int i = 0; i < s.n[0]; ++i) {
           const Vec3 x = lower + Vec3{(i + 0.5) * s.h.x, (j + 0.5) * s.h.y, (k + 0.5) * s.h.z};
           const double f = s.radial() ? share_of_shell(shape, lower.x, s, i) : share_inside(shape, x, s);
-          if (f > 0) blend(m.state, int(b), s.at(k, j, i), U, f);
+          if (f > 0) blend(m.state, int(b), s.at(k, j, i), U, f), painted[size_t(b)] = 1;
         }
   });
+  return m.forest.comm().max(int64_t(std::count(painted.begin(), painted.end(), 1))) > 0;
 }
 
 void paint_cavity(Model& m, const CavityRegion& shape, const RegionCase& region, const double (&U)[Cons::most], bool last) {
@@ -322,8 +326,8 @@ void paint_regions(Model& m, const Case& cs, bool last) {
         [&](const auto& shape) {
           if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, CavityRegion>)
             paint_cavity(m, shape, r, U, last);
-          else
-            paint_shape(m, shape, U);
+          else if (!paint_shape(m, shape, U) && last)
+            warn("{}: the region fills no part of any cell: it is outside of the domain, or far smaller than a cell", r.place);
         },
         r.shape);
   }

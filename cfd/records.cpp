@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/app/log.h"
 #include "common/io/file.h"
 #include "common/io/json.h"
 
@@ -82,10 +83,12 @@ void Records::step_gauges(const Model& m) {
     Gauge& g = gauge_[i];
     const bool fluid = v[2] > 0;
     const double q = 0.5 * v[0] * v[3] * v[3];
-    if (t_ < 0)
+    if (t_ < 0) {
       g.wave.begin(fluid ? v[1] : case_.coupling.reference_pressure);
-    else
+      if (!fluid) warn("gauge \"{}\" is in metal at the start: it feels nothing there", case_.fluid.gauge[i].name);
+    } else {
       g.wave.add(t_, t, fluid ? v[1] : g.wave.p0, arrival_of(g.wave));
+    }
     g.dynamic_impulse += 0.5 * dt * (g.q + q);
     g.q = q;
     if (q > g.peak_q) g.peak_q = q, g.t_peak_q = t;

@@ -7,6 +7,7 @@
 
 #include "cfd/checkpoint.h"
 #include "cfd/output.h"
+#include "cfd/remarks.h"
 #include "cfd/start/paint.h"
 #include "cfd/window_steps.h"
 #include "common/app/log.h"
@@ -93,6 +94,7 @@ void open_model(Model& m, const Case& cs, Books& books, const Restart* from = nu
   books.refresh(m, all);
   const FluidSums s = books.sums(m);
   if (m.setup.burn && !from) m.explosive_mass = s.U[Cons::arho1];
+  if (!from) remark(cs, m, s);
   if (m.refine)
     say("levels 0 to {} of cells; {} cells at the start, {:.2g} of them if all were of the finest level", m.forest.levels(), m.forest.global_cells(),
         double(m.forest.global_cells()) / finest_cells(m));
@@ -155,7 +157,7 @@ int run_alone(const Case& cs, Model& m) {
 coupling::FluidTotals totals_of(const Model& m, const Books& books) {
   coupling::FluidTotals t;
   const FluidSums s = books.sums(m);
-  t.mass = s.U[0] + s.U[1];
+  t.mass = m.setup.medium.density(s.U);
   t.energy = s.U[Cons::rhoE];
   t.momentum = {s.U[Cons::mom], s.U[Cons::mom_y], s.U[Cons::mom_z]};
   const SweptSums swept = books.swept_sums(m.forest.comm());

@@ -183,6 +183,22 @@ Facets PlaneShape::facets(const ShapeSetting& s) const {
   return f;
 }
 
+bool PrismShape::sides_cross() const {
+  const auto side_of = [](const Vec3& a, const Vec3& b, const Vec3& p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+  };
+  const auto apart = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return side_of(a, b, c) * side_of(a, b, d) < 0;
+  };
+  const size_t n = points.size();
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = i + 1; j < n; ++j) {
+      const Vec3 &a = points[i], &b = points[(i + 1) % n], &c = points[j], &d = points[(j + 1) % n];
+      if (apart(a, b, c, d) && apart(c, d, a, b)) return true;
+    }
+  return false;
+}
+
 Facets PrismShape::facets(const ShapeSetting& s) const {
   std::vector<Vec3> corner = points;
   double twice_area = 0;

@@ -99,11 +99,13 @@ struct PrismShape {
   static constexpr auto name = "prism";
   std::vector<Vec3> points;
   std::vector<double> span;
+  bool sides_cross() const;  ///< in their inside: hollow polygons may touch themselves
   template <class K>
   void describe(K& k) {
     k.required("points", points, dim::length, "corners of the polygon in order, [x, y, 0] each");
     k.optional("span", span, dim::length, "z of its two ends; absent: it goes through the whole domain");
     k.expect(points.size() >= 3, "points", "at least three points");
+    k.expect(!sides_cross(), "points", "a polygon whose sides don't cross each other");
     k.expect(span.empty() || (span.size() == 2 && span[1] > span[0]), "span", "two lengths in order");
   }
   Facets facets(const ShapeSetting& s) const;

@@ -106,6 +106,16 @@ TEST(EmbedBody, MotionsIntegrateTheirVelocities) {
   EXPECT_NEAR(x.y, 1, 1e-14);
 }
 
+TEST(EmbedBody, PolygonsThatCrossThemselves) {
+  const Vec3 a{0.2, 0.2, 0}, b{0.8, 0.2, 0}, c{0.8, 0.8, 0}, d{0.2, 0.8, 0};
+  EXPECT_TRUE((PrismShape{{a, c, b, d}, {}}.sides_cross()));
+  EXPECT_FALSE((PrismShape{{a, b, c, d}, {}}.sides_cross()));
+  EXPECT_FALSE((PrismShape{{d, c, b, a}, {}}.sides_cross()));
+  // hollow: out to the inner square and back on the same way
+  const Vec3 e{0.4, 0.4, 0}, f{0.4, 0.6, 0}, g{0.6, 0.6, 0}, h{0.6, 0.4, 0};
+  EXPECT_FALSE((PrismShape{{a, b, c, d, a, e, f, g, h, e}, {}}.sides_cross()));
+}
+
 TEST(EmbedBody, ReadFromACase) {
   Keys keys = Keys::read_text(R"(
 [[body]]
